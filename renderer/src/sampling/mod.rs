@@ -1,0 +1,3 @@
+//! Random numbers and what is drawn with them.
+
+pub mod warp;

@@ -1,0 +1,48 @@
+//! What a render is asked for.
+
+use limpid_frame::LayerRequest;
+use limpid_scenes::Crop;
+
+/// Point sets for the random decisions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampler {
+    /// Counter-based uniform numbers.
+    Independent,
+    /// Owen-scrambled Sobol sets, one per decision.
+    Sobol,
+}
+
+/// Everything but the scene that a picture depends on, and the number of threads, on which it doesn't.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Of the whole film, in pixels.
+    pub width: u32,
+    /// Of the whole film, in pixels.
+    pub height: u32,
+    /// The part to render; the whole film where absent.
+    pub crop: Option<Crop>,
+    /// Samples per pixel, at least 1.
+    pub spp: u32,
+    /// Different seeds give independent pictures.
+    pub seed: u64,
+    /// Frame number of a sequence: another one gives independent noise.
+    pub frame: u32,
+    /// Where the random decisions come from.
+    pub sampler: Sampler,
+    /// Longest path in edges (1: lights only, 2: direct light); unlimited where absent.
+    pub max_depth: Option<u32>,
+    /// Depth from which Russian roulette may end a path.
+    pub rr_depth: u32,
+    /// Upper bound for a sample's radiance per channel: biased, and off by default.
+    pub clamp: Option<f32>,
+    /// Lights and background are not seen directly.
+    pub hide_emitters: bool,
+    /// What the frame is to hold beside the beauty.
+    pub layers: LayerRequest,
+    /// Keep every single sample.
+    pub records: bool,
+    /// Number of threads; all cores where absent.
+    pub threads: Option<usize>,
+    /// Side of a tile in pixels: for tests, since no picture depends on it.
+    pub tile: u32,
+}

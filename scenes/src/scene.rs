@@ -1,0 +1,521 @@
+//! The scene as plain data.
+//!
+//! Conventions, whatever the file format was:
+//! - right-handed world space; `world_from_object * p_object` with column vectors;
+//! - a camera looks along its local +z with +y up, so +x points to the *left* of the picture;
+//! - colours are linear Rec. 709; lengths are the file's own unit; angles are degrees where the name says so;
+//! - row 0 of an [`Image`] is the top row of its file and lies at v = 0.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::{DMat3, DMat4, DVec3};
+
+/// Linear Rec. 709 colour.
+pub type Rgb = [f32; 3];
+
+/// Where in its file something was said, so that a later error can point at it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// As the user gave it or as the including file names it; not canonicalised.
+    pub file: Arc<PathBuf>,
+    /// Counted from 1; 0 where the format has no lines.
+    pub line: u32,
+    /// Counted from 1, in characters; the byte offset where the format has no lines.
+    pub column: u32,
+}
+
+/// A scene: cameras, shapes, what they are made of, and lights.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// The file that was read, as the user gave it.
+    pub file: PathBuf,
+    /// SHA-256 over the contents of every file that was read, in reading order, as hexadecimal digits.
+    pub content_hash: String,
+    /// At least one after a reader: a file without a camera gets a stated default.
+    pub cameras: Vec<Camera>,
+    /// How light is to be transported.
+    pub integrator: Integrator,
+    /// In the order of the file: a shape's index is its `id.object`.
+    pub shapes: Vec<Shape>,
+    /// Indexed by [`MaterialId`], which is also `id.material`.
+    pub materials: Vec<Material>,
+    /// Indexed by [`TextureId`].
+    pub textures: Vec<Texture>,
+    /// Lights that are not the surface of a shape.
+    pub lights: Vec<Light>,
+    /// Indexed by [`MediumId`].
+    pub media: Vec<Medium>,
+    /// What was said in the file and could not be honoured, in file order.
+    pub warnings: Vec<Warning>,
+}
+
+/// Something in a file that was left out or replaced, and by what.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Where it stands.
+    pub place: Place,
+    /// What it is about, as the user would search for it: `bsdf "floor"`.
+    pub element: String,
+    /// One clause: what is not honoured and what happens in its place.
+    pub message: String,
+    /// An unused parameter, which `--strict` turns into an error.
+    pub unused_parameter: bool,
+}
+
+/// Index into [`Scene::materials`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct MaterialId(pub u32);
+
+/// Index into [`Scene::textures`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TextureId(pub u32);
+
+/// Index into [`Scene::media`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct MediumId(pub u32);
+
+/// A camera with its film and sample count.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    /// The file's id, or `camera` and a number; what `--camera` takes.
+    pub name: String,
+    /// May hold a scale, also a negative one: handedness is the file's business.
+    pub world_from_camera: DMat4,
+    /// How film positions become directions.
+    pub projection: Projection,
+    /// Where the file states them, nothing nearer or farther along the view axis is seen.
+    pub near_clip: Option<f64>,
+    /// See `near_clip`.
+    pub far_clip: Option<f64>,
+    /// Size, crop and pixel filter.
+    pub film: Film,
+    /// What the file says about sampling.
+    pub sampler: Sampler,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// How film positions become rays.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Projection {
+    /// A pinhole.
+    Perspective {
+        /// Full angle of view along `fov_axis`, in degrees, in (0, 180).
+        fov_deg: f64,
+        /// Which side of the film the angle belongs to.
+        fov_axis: FovAxis,
+        /// Shift of the picture as fractions of its width and height.
+        principal_point_offset: [f64; 2],
+    },
+}
+
+/// The side of the film that a field of view is measured along; it refers to the whole film, never to the crop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FovAxis {
+    /// The width.
+    X,
+    /// The height.
+    Y,
+    /// The diagonal.
+    Diagonal,
+    /// The shorter of width and height.
+    Smaller,
+    /// The longer of width and height.
+    Larger,
+}
+
+/// Size of the picture in pixels, and what a pixel gathers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// In pixels, at least 1.
+    pub width: u32,
+    /// In pixels, at least 1.
+    pub height: u32,
+    /// The part to be rendered; the whole film where absent.
+    pub crop: Option<Crop>,
+    /// The pixel filter.
+    pub filter: PixelFilter,
+}
+
+/// A rectangle of pixels from the film's top left corner; not empty, within the film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// First column.
+    pub x: u32,
+    /// First row.
+    pub y: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+/// Reconstruction filters; lengths in pixels, with Mitsuba's defaults.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PixelFilter {
+    /// Radius 0.5.
+    Box,
+    /// `max(0, 1 − |x| / radius)`.
+    Tent {
+        /// Where it ends; 1.
+        radius: f32,
+    },
+    /// `exp(−x² / 2σ²)` less its value at the radius 4σ, where it ends.
+    Gaussian {
+        /// σ; 0.5.
+        stddev: f32,
+    },
+    /// Mitchell and Netravali 1988, radius 2.
+    Mitchell {
+        /// 1/3.
+        b: f32,
+        /// 1/3.
+        c: f32,
+    },
+    /// Mitchell with B = 0, C = 1/2, radius 2.
+    CatmullRom,
+    /// `sinc(x) · sinc(x / lobes)`, radius `lobes`.
+    Lanczos {
+        /// 3.
+        lobes: f32,
+    },
+}
+
+/// The sampler that a file names and its sample count.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sampler {
+    /// The file's word: `independent`, `multijitter`, …
+    pub kind: String,
+    /// Samples per pixel.
+    pub sample_count: u32,
+}
+
+/// How light is transported.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Integrator {
+    /// The file's word: `path`, `direct`, …; whatever it is, paths are traced.
+    pub kind: String,
+    /// Longest path in edges: 1 shows lights only, 2 direct light; unlimited where absent.
+    pub max_depth: Option<u32>,
+    /// Depth from which Russian roulette may end a path.
+    pub rr_depth: u32,
+    /// Lights and background are not seen directly by the camera.
+    pub hide_emitters: bool,
+}
+
+impl Default for Integrator {
+    /// Mitsuba's `path`.
+    fn default() -> Self {
+        Self { kind: "path".into(), max_depth: None, rr_depth: 5, hide_emitters: false }
+    }
+}
+
+/// A surface in the world.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// The file's id, or its kind and a number.
+    pub name: String,
+    /// Its form in object space.
+    pub kind: ShapeKind,
+    /// Affine.
+    pub world_from_object: DMat4,
+    /// Turns the geometric normal to the other side.
+    pub flip_normals: bool,
+    /// What it is made of.
+    pub material: MaterialId,
+    /// What it emits, on the side of its geometric normal only.
+    pub emission: Option<Emission>,
+    /// The medium on the side away from the normal.
+    pub interior: Option<MediumId>,
+    /// The medium on the side of the normal.
+    pub exterior: Option<MediumId>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// The form of a shape in object space.
+#[derive(Clone, Debug)]
+pub enum ShapeKind {
+    /// Triangles; several shapes may share one mesh.
+    Mesh(Arc<Mesh>),
+    /// Normal outwards; u is the longitude from +x towards +y over 2π, v the angle from +z over π.
+    Sphere {
+        /// In object space.
+        center: DVec3,
+        /// Positive.
+        radius: f64,
+    },
+    /// Unit disk in z = 0, normal +z; u is the radius, v the angle from +x over 2π.
+    Disk,
+    /// \[−1, 1\]² in z = 0, normal +z; uv from (0, 0) at (−1, −1) to (1, 1) at (1, 1).
+    Rectangle,
+    /// \[−1, 1\]³, normals outwards, each face with uv over \[0, 1\]².
+    Cube,
+}
+
+/// A triangle mesh. All vertices are finite, all indices in range: readers drop what is not, with a warning.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Vertex positions in object space.
+    pub positions: Vec<[f32; 3]>,
+    /// One a vertex, not necessarily unit; empty: flat faces.
+    pub normals: Vec<[f32; 3]>,
+    /// One a vertex; empty: the barycentric coordinates of each face stand in.
+    pub uvs: Vec<[f32; 2]>,
+    /// Counter-clockwise seen from the side of the normal.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Emitted radiance of a surface.
+#[derive(Clone, Debug)]
+pub struct Emission {
+    /// The emitter's id where it has one; what `--light-groups` will take.
+    pub name: Option<String>,
+    /// W·sr⁻¹·m⁻² per channel.
+    pub radiance: Color,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A colour, constant or from a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Color {
+    /// The same everywhere.
+    Constant(Rgb),
+    /// Looked up at the hit.
+    Texture(TextureId),
+}
+
+/// A number, constant or from a texture (whose luminance counts).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scalar {
+    /// The same everywhere.
+    Constant(f32),
+    /// Looked up at the hit.
+    Texture(TextureId),
+}
+
+/// A surface's scattering, with its name.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// The file's id, or its kind and a number.
+    pub name: String,
+    /// The model and its parameters.
+    pub kind: MaterialKind,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// Scattering models. One-sided ones are black from behind unless wrapped in [`TwoSided`](Self::TwoSided).
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialKind {
+    /// Lambert.
+    Diffuse {
+        /// Albedo.
+        reflectance: Color,
+    },
+    /// Smooth metal.
+    Conductor {
+        /// Complex index of refraction η + ik relative to the outside; `None`: a perfect mirror.
+        ior: Option<ConductorIor>,
+        /// Factor on the reflection.
+        specular_reflectance: Color,
+    },
+    /// Rough metal, single scattering.
+    RoughConductor {
+        /// Microfacet distribution.
+        distribution: Distribution,
+        /// Width along the u direction, used as it is.
+        alpha_u: Scalar,
+        /// Width along the v direction.
+        alpha_v: Scalar,
+        /// See [`Conductor`](Self::Conductor).
+        ior: Option<ConductorIor>,
+        /// Factor on the reflection.
+        specular_reflectance: Color,
+    },
+    /// Smooth glass; never two-sided.
+    Dielectric {
+        /// Index on the side away from the normal.
+        int_ior: f32,
+        /// Index on the side of the normal.
+        ext_ior: f32,
+        /// Factor on the reflection.
+        specular_reflectance: Color,
+        /// Factor on the transmission.
+        specular_transmittance: Color,
+    },
+    /// Smooth dielectric coating over a diffuse base.
+    Plastic {
+        /// Index of the coating.
+        int_ior: f32,
+        /// Index outside.
+        ext_ior: f32,
+        /// Albedo of the base.
+        diffuse_reflectance: Color,
+        /// Factor on the reflection.
+        specular_reflectance: Color,
+        /// Colour shift by internal reflections is accounted for.
+        nonlinear: bool,
+    },
+    /// Rough dielectric coating over a diffuse base.
+    RoughPlastic {
+        /// Microfacet distribution.
+        distribution: Distribution,
+        /// Isotropic width.
+        alpha: f32,
+        /// Index of the coating.
+        int_ior: f32,
+        /// Index outside.
+        ext_ior: f32,
+        /// Albedo of the base.
+        diffuse_reflectance: Color,
+        /// Factor on the reflection.
+        specular_reflectance: Color,
+        /// Colour shift by internal reflections is accounted for.
+        nonlinear: bool,
+    },
+    /// Gives both sides of a surface a reflecting material.
+    TwoSided {
+        /// Seen from the side of the normal.
+        front: MaterialId,
+        /// Seen from behind; often the same.
+        back: MaterialId,
+    },
+}
+
+/// Complex index of refraction η + ik, relative to the outside. May be textured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConductorIor {
+    /// Real part.
+    pub eta: Color,
+    /// Imaginary part, not negative.
+    pub k: Color,
+}
+
+/// Microfacet distributions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Distribution {
+    /// Beckmann.
+    Beckmann,
+    /// GGX, also called Trowbridge–Reitz.
+    Ggx,
+}
+
+/// A texture with its mapping.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// The file's id, or its kind and a number.
+    pub name: String,
+    /// What is looked up.
+    pub kind: TextureKind,
+    /// Applied to (u, v, 1) of the surface before the look-up.
+    pub uv_from_surface: DMat3,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// What a texture looks up.
+#[derive(Clone, Debug)]
+pub enum TextureKind {
+    /// Pixels.
+    Bitmap {
+        /// Several textures may share one image.
+        image: Arc<Image>,
+        /// Between texels.
+        filter: TexelFilter,
+        /// Outside \[0, 1\]².
+        wrap: WrapMode,
+    },
+    /// Squares of side ½ in uv.
+    Checkerboard {
+        /// Where both or neither of frac(u), frac(v) lie above ½.
+        color0: Color,
+        /// Elsewhere.
+        color1: Color,
+    },
+}
+
+/// Interpolation between texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TexelFilter {
+    /// The nearest texel.
+    Nearest,
+    /// Of the four around; texel (i, j) has its centre at ((i + ½) / width, (j + ½) / height).
+    Bilinear,
+}
+
+/// What lies outside \[0, 1\]² of a bitmap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WrapMode {
+    /// The picture again.
+    Repeat,
+    /// The picture mirrored.
+    Mirror,
+    /// The border texel.
+    Clamp,
+}
+
+/// A decoded picture, at least 1×1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// In texels.
+    pub width: u32,
+    /// In texels.
+    pub height: u32,
+    /// Row-major from the top, three values a texel (grey is spread, alpha dropped).
+    pub texels: Texels,
+}
+
+/// The values of an [`Image`], three a texel.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Texels {
+    /// sRGB-encoded bytes.
+    Srgb8(Vec<u8>),
+    /// Bytes that are linear values × 255 (`raw`).
+    Linear8(Vec<u8>),
+    /// Linear values; may be non-finite, as the file has them.
+    Linear32(Vec<f32>),
+}
+
+/// A light that is not the surface of a shape.
+#[derive(Clone, Debug)]
+pub struct Light {
+    /// The file's id, or its kind and a number.
+    pub name: String,
+    /// What it sends.
+    pub kind: LightKind,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// Lights without a surface.
+#[derive(Clone, Debug)]
+pub enum LightKind {
+    /// The same radiance from everywhere.
+    Constant {
+        /// W·sr⁻¹·m⁻² per channel.
+        radiance: Rgb,
+    },
+    /// A lat-long picture at infinity, +y up in light space; its centre column is seen along +z.
+    EnvMap {
+        /// Row 0 at the zenith.
+        image: Arc<Image>,
+        /// Factor on the texels.
+        scale: f32,
+        /// Only its linear part counts.
+        world_from_light: DMat4,
+    },
+}
+
+/// A participating medium. It is read, and refused by the renderer.
+#[derive(Clone, Debug)]
+pub struct Medium {
+    /// The file's id, or its kind and a number.
+    pub name: String,
+    /// The file's word.
+    pub kind: String,
+    /// Where it stands.
+    pub place: Place,
+}
