@@ -1,7 +1,7 @@
 //! What a render is asked for.
 
 use limpid_frame::LayerRequest;
-use limpid_scenes::Crop;
+use limpid_scenes::{Crop, Scene};
 
 /// Point sets for the random decisions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,10 +39,36 @@ pub struct Settings {
     pub hide_emitters: bool,
     /// What the frame is to hold beside the beauty.
     pub layers: LayerRequest,
-    /// Keep every single sample.
-    pub records: bool,
     /// Number of threads; all cores where absent.
     pub threads: Option<usize>,
     /// Side of a tile in pixels: for tests, since no picture depends on it.
     pub tile: u32,
+}
+
+impl Settings {
+    /// What the scene's file says for its camera number `camera`, and the defaults for what it leaves open: the Sobol
+    /// sampler whatever the file names, the beauty alone, all cores.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such camera.
+    pub fn for_camera(scene: &Scene, camera: usize) -> Self {
+        let camera = &scene.cameras[camera];
+        Self {
+            width: camera.film.width,
+            height: camera.film.height,
+            crop: camera.film.crop,
+            spp: camera.sampler.sample_count,
+            seed: 0,
+            frame: 0,
+            sampler: Sampler::Sobol,
+            max_depth: scene.integrator.max_depth,
+            rr_depth: scene.integrator.rr_depth,
+            clamp: None,
+            hide_emitters: scene.integrator.hide_emitters,
+            layers: LayerRequest::beauty(),
+            threads: None,
+            tile: 32,
+        }
+    }
 }

@@ -1,0 +1,121 @@
+//! The integrator: unidirectional path tracing with next-event estimation, multiple importance sampling and
+//! Russian roulette, over batches of paths.
+//!
+//! ```text
+//! generate → [ extend → emit → shade → connect → survive ]* → accumulate
+//! ```
+//!
+//! Each stage is a plain function over the batch around a core for one path; [`depth_first`] drives the same cores one
+//! path at a time and is what the tests compare with. Queues stay in pixel order: the order of rays is worth more
+//! than that of materials.
+
+mod batch;
+mod connect;
+mod emit;
+mod generate;
+mod shade;
+mod survive;
+
+use glam::Vec3;
+
+pub use batch::{Batch, accumulate, trace};
+#[cfg(test)]
+pub use batch::depth_first;
+
+use crate::accel::Ray;
+use crate::camera::Camera;
+use crate::color::{Rgb, Split};
+use crate::prepare::Prepared;
+use crate::sampling::{PixelFilterSampler, PixelSampler};
+use crate::settings::Settings;
+
+/// What all paths of a render share.
+pub struct Context<'a> {
+    pub scene: &'a Prepared,
+    pub camera: Camera,
+    pub filter: PixelFilterSampler,
+    pub settings: &'a Settings,
+    /// Something beyond radiance is asked for.
+    pub features: bool,
+}
+
+/// A path on its way: what outlives a stage.
+#[derive(Clone, Copy, Debug)]
+pub struct Path {
+    /// Its random numbers.
+    pub sampler: PixelSampler,
+    /// Throughput Π f · cos / pdf, roulette included. Before the first non-delta vertex it is whole in `specular`; from
+    /// there on it is split by the lobe that was taken *at that vertex*.
+    pub beta: Split,
+    /// Radiance gathered after the first non-delta vertex, by its lobe.
+    pub scattered: Split,
+    /// Radiance gathered before it.
+    pub emission: Rgb,
+    /// The last vertex: where the current ray starts, in render space.
+    pub p: Vec3,
+    /// Density per steradian with which the current direction was drawn.
+    pub pdf: f32,
+    /// Edges so far, the current ray included.
+    pub edges: u32,
+    /// Π η² over refractions: what radiance gained by them and will lose again.
+    pub eta_scale: f32,
+    /// The current direction was drawn from a delta lobe, or is the camera's: no light sample stands for it.
+    pub delta: bool,
+    /// A non-delta vertex has been met.
+    pub split: bool,
+    /// The feature hit has been met.
+    pub feature_done: bool,
+    /// A contribution was not finite and was replaced by 0.
+    pub rejected: bool,
+    /// Weight of the pixel filter: ±a constant.
+    pub weight: f32,
+}
+
+impl Path {
+    /// Adds radiance that arrives along the path; `through` is the throughput up to and including its last vertex.
+    #[inline]
+    fn gather(&mut self, through: Split, radiance: Rgb) {
+        let gained = through * radiance;
+        if !gained.total().is_finite() {
+            self.rejected = true;
+        } else if self.split {
+            self.scattered += gained;
+        } else {
+            self.emission += gained.specular;
+        }
+    }
+}
+
+/// A light sample that waits for its visibility.
+#[derive(Clone, Copy, Debug)]
+pub struct Connection {
+    /// Towards the light.
+    pub ray: Ray,
+    /// Throughput to the vertex, times f · cos / pdf and the MIS weight.
+    pub through: Split,
+    /// Emitted towards the vertex.
+    pub radiance: Rgb,
+    /// The vertex is the feature hit.
+    pub at_feature: bool,
+}
+
+/// Weight of a strategy with density `pdf` beside one with density `other`, by the power heuristic with exponent 2
+/// (Veach 1997), in the form that no density can overflow.
+#[inline]
+fn mis_weight(pdf: f32, other: f32) -> f32 {
+    let ratio = other / pdf;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mis_weight;
+
+    #[test]
+    fn mis_weights_add_up_to_one_whatever_the_densities() {
+        for (a, b) in [(1.0, 1.0), (0.3, 7.0), (2.5e25, 0.3), (1e38, 1e-38), (1e-38, 1e38)] {
+            let sum = mis_weight(a, b) + mis_weight(b, a);
+            assert!((sum - 1.0f32).abs() < 1e-6, "{a} {b}: {sum}");
+        }
+    }
+}
