@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Layer, Statistic};
+use crate::{FrameError, Layer, LayerRequest, Statistic};
 
 /// A picture: planes of `f32`, row-major from the top left, one value per pixel and channel.
 ///
@@ -99,5 +99,70 @@ impl Frame {
         for (name, plane) in names.into_iter().zip(planes) {
             self.insert(name, plane);
         }
+    }
+
+    /// The planes `R`, `G` and `B`.
+    ///
+    /// # Errors
+    ///
+    /// [`FrameError::MissingChannel`] names the first that is not here.
+    pub fn rgb(&self) -> Result<[&[f32]; 3], FrameError> {
+        let plane = |name: &str| {
+            self.channel(name).ok_or_else(|| FrameError::MissingChannel { channel: name.to_owned() })
+        };
+        Ok([plane("R")?, plane("G")?, plane("B")?])
+    }
+
+    /// The layers and statistics all of whose channels are here.
+    pub fn layers_present(&self) -> LayerRequest {
+        let mut present = LayerRequest::default();
+        for layer in Layer::ALL {
+            for statistic in Statistic::ALL {
+                if layer.channel_names(statistic).iter().all(|name| self.channels.contains_key(name)) {
+                    present = present.with(layer, statistic);
+                }
+            }
+        }
+        present
+    }
+
+    /// The channels that hold values which are not finite, and how many: for a warning.
+    pub fn non_finite(&self) -> Vec<(&str, usize)> {
+        self.channels()
+            .map(|(name, plane)| (name, plane.iter().filter(|v| !v.is_finite()).count()))
+            .filter(|(_, count)| *count > 0)
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_present_are_those_with_all_their_channels() {
+        let mut frame = Frame::new(2, 1);
+        for name in ["R", "G", "B", "variance.R", "variance.G", "depth.Z", "depth.a.Z", "Z"] {
+            frame.insert(name, vec![0.0; 2]);
+        }
+        let expected =
+            LayerRequest::beauty().with(Layer::Depth, Statistic::Mean).with(Layer::Depth, Statistic::A);
+        assert_eq!(frame.layers_present(), expected);
+    }
+
+    #[test]
+    fn non_finite_values_are_counted_by_channel() {
+        let mut frame = Frame::new(3, 1);
+        frame.insert("R", vec![0.0; 3]);
+        frame.insert("G", vec![f32::NAN, 1.0, f32::INFINITY]);
+        assert_eq!(frame.non_finite(), [("G", 2)]);
+    }
+
+    #[test]
+    fn a_missing_channel_is_named() {
+        let mut frame = Frame::new(1, 1);
+        frame.insert("R", vec![0.0]);
+        let error = frame.rgb().expect_err("G is not there");
+        assert_eq!(error.to_string(), "the frame has no channel `G`");
     }
 }

@@ -79,6 +79,11 @@ impl Layer {
         }
     }
 
+    /// The layer of this name, if there is one.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|layer| layer.name() == name)
+    }
+
     /// The last part of its channels' names, in their order.
     pub fn channels(self) -> &'static [&'static str] {
         match self {
@@ -129,6 +134,11 @@ pub enum Statistic {
     A,
     /// The mean of the odd samples.
     B,
+}
+
+impl Statistic {
+    /// All statistics, in the order of the table.
+    pub const ALL: [Statistic; 4] = [Statistic::Mean, Statistic::Variance, Statistic::A, Statistic::B];
 }
 
 /// A set of layers and statistics: what a method needs and what `--layers` asks for.
