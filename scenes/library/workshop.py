@@ -321,9 +321,9 @@ def sky(h, w, sun, sun_radiance, sun_deg, zenith, horizon, glow, ground):
     s = np.asarray(sun, float) / np.linalg.norm(sun)
     cos = np.clip(d @ s, -1, 1)
     angle = np.degrees(np.arccos(cos))
-    up = np.clip(d[..., 1:], 0, 1)
+    up = np.clip(d[..., 1:2], 0, 1)
     c = np.asarray(horizon) * (1 - up) ** 3 + np.asarray(zenith) * (1 - (1 - up) ** 3)
     c = c + np.asarray(glow) * (np.exp(-angle / 14) + 0.25 * np.exp(-angle / 45))[..., None]
-    below = 1 / (1 + np.exp(d[..., 1:] / 0.012))
-    c = c * (1 - below) + np.asarray(ground) * (0.8 + 0.2 * (1 + d[..., 1:])) * below
+    below = 1 / (1 + np.exp(d[..., 1:2] / 0.012))
+    c = c * (1 - below) + np.asarray(ground) * (0.8 + 0.2 * (1 + d[..., 1:2])) * below
     return c + np.asarray(sun_radiance) * np.exp(-0.5 * (angle / sun_deg) ** 2)[..., None]
