@@ -1,0 +1,147 @@
+//! Importance sampling of the pixel filter.
+//!
+//! A sample belongs to one pixel: its place is drawn from |f|, and its weight is the sign of f times a constant, so that
+//! the mean of weight · radiance is the filtered pixel. Filters are separable.
+
+use glam::Vec2;
+use limpid_scenes::PixelFilter;
+
+/// Draws places in a pixel filter.
+#[derive(Clone, Debug)]
+pub struct PixelFilterSampler {
+    profile: Profile,
+}
+
+/// One axis.
+#[derive(Clone, Debug)]
+enum Profile {
+    Box,
+    Tent { radius: f32 },
+    Table(Table),
+}
+
+/// |f| as steps of equal width.
+#[derive(Clone, Debug)]
+struct Table {
+    radius: f64,
+    /// Sums of |∫ f| over the bins up to and including each, over the sum of all.
+    sums: Box<[f64]>,
+    /// Sign of ∫ f over each bin, times ∫|f| / ∫f.
+    weights: Box<[f32]>,
+}
+
+/// Bins of a table: a power of two, so that their borders are exact.
+const BINS: usize = 2048;
+
+impl PixelFilterSampler {
+    /// A filter with a parameter that makes no filter (a radius that is not positive, say) becomes a box.
+    pub fn new(filter: PixelFilter) -> Self {
+        let profile = match filter {
+            PixelFilter::Box => Profile::Box,
+            PixelFilter::Tent { radius } if radius > 0.0 && radius.is_finite() => Profile::Tent { radius },
+            PixelFilter::Tent { .. } => Profile::Box,
+            PixelFilter::Gaussian { stddev } => {
+                let alpha = -0.5 / f64::from(stddev).powi(2);
+                let radius = 4.0 * f64::from(stddev);
+                table(radius, |x| (alpha * x * x).exp() - (alpha * radius * radius).exp())
+            }
+            PixelFilter::Mitchell { b, c } => table(2.0, |x| mitchell(x, b.into(), c.into())),
+            PixelFilter::CatmullRom => table(2.0, |x| mitchell(x, 0.0, 0.5)),
+            PixelFilter::Lanczos { lobes } => {
+                let lobes = f64::from(lobes);
+                table(lobes, |x| sinc(x) * sinc(x / lobes))
+            }
+        };
+        Self { profile }
+    }
+
+    /// An offset from the pixel's centre in pixels, and the sample's weight, whose mean is 1; for filters without
+    /// negative lobes it is 1. `u` is uniform in [0, 1)².
+    #[inline]
+    pub fn sample(&self, u: Vec2) -> (Vec2, f32) {
+        match &self.profile {
+            Profile::Box => (u - 0.5, 1.0),
+            Profile::Tent { radius } => (*radius * Vec2::new(tent(u.x), tent(u.y)), 1.0),
+            Profile::Table(table) => {
+                let (x, weight_x) = table.sample(u.x);
+                let (y, weight_y) = table.sample(u.y);
+                (Vec2::new(x, y), weight_x * weight_y)
+            }
+        }
+    }
+}
+
+/// Inversion of 1 − |x| on [−1, 1].
+#[inline]
+fn tent(u: f32) -> f32 {
+    if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).sqrt() }
+}
+
+/// The filter `f` on [−radius, radius].
+fn table(radius: f64, f: impl Fn(f64) -> f64) -> Profile {
+    let width = 2.0 * radius / BINS as f64;
+    // Gauss's rule with two points: exact for the cubic pieces of Mitchell's filter.
+    let (near, far) = (0.5 - 0.5 / 3f64.sqrt(), 0.5 + 0.5 / 3f64.sqrt());
+    let integrals: Vec<f64> = (0..BINS)
+        .map(|i| {
+            let at = |x: f64| f(-radius + (i as f64 + x) * width);
+            0.5 * (at(near) + at(far))
+        })
+        .collect();
+    let (signed, absolute) = integrals.iter().fold((0.0, 0.0), |(s, a), x| (s + x, a + x.abs()));
+    let ratio = absolute / signed;
+    // Not so for a radius of 0, NaN, infinity, and the like.
+    let is_filter = radius > 0.0 && radius.is_finite() && ratio >= 1.0 - 1e-9 && ratio.is_finite();
+    if !is_filter {
+        return Profile::Box;
+    }
+    let mut sum = 0.0;
+    let sums = integrals
+        .iter()
+        .map(|x| {
+            sum += x.abs();
+            sum / absolute
+        })
+        .collect();
+    // Exactly 1 without negative lobes.
+    let ratio = ratio as f32;
+    let weights = integrals.iter().map(|x| if *x < 0.0 { -ratio } else { ratio }).collect();
+    Profile::Table(Table { radius, sums, weights })
+}
+
+impl Table {
+    #[inline]
+    fn sample(&self, u: f32) -> (f32, f32) {
+        let u = f64::from(u);
+        // The last sum is 1 and more than u, but for rounding.
+        let bin = self.sums.partition_point(|&sum| sum <= u).min(BINS - 1);
+        let before = if bin == 0 { 0.0 } else { self.sums[bin - 1] };
+        let within = ((u - before) / (self.sums[bin] - before)).clamp(0.0, 1.0);
+        let x = (2.0 * (bin as f64 + within) / BINS as f64 - 1.0) * self.radius;
+        (x as f32, self.weights[bin])
+    }
+}
+
+/// Mitchell and Netravali 1988, equation 8.
+fn mitchell(x: f64, b: f64, c: f64) -> f64 {
+    let x = x.abs();
+    let cubic = if x < 1.0 {
+        (12.0 - 9.0 * b - 6.0 * c) * x.powi(3) + (-18.0 + 12.0 * b + 6.0 * c) * x.powi(2) + (6.0 - 2.0 * b)
+    } else if x < 2.0 {
+        (-b - 6.0 * c) * x.powi(3)
+            + (6.0 * b + 30.0 * c) * x.powi(2)
+            + (-12.0 * b - 48.0 * c) * x
+            + (8.0 * b + 24.0 * c)
+    } else {
+        0.0
+    };
+    cubic / 6.0
+}
+
+fn sinc(x: f64) -> f64 {
+    let x = std::f64::consts::PI * x;
+    if x == 0.0 { 1.0 } else { x.sin() / x }
+}
+
+#[cfg(test)]
+mod tests;

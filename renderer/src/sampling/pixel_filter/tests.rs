@@ -1,0 +1,114 @@
+use glam::Vec2Swizzles;
+
+use super::*;
+
+const FILTERS: [PixelFilter; 9] = [
+    PixelFilter::Box,
+    PixelFilter::Tent { radius: 1.0 },
+    PixelFilter::Tent { radius: 2.5 },
+    PixelFilter::Gaussian { stddev: 0.5 },
+    PixelFilter::Gaussian { stddev: 3.0 },
+    PixelFilter::Mitchell { b: 1.0 / 3.0, c: 1.0 / 3.0 },
+    PixelFilter::Mitchell { b: 1.0, c: 0.0 },
+    PixelFilter::CatmullRom,
+    PixelFilter::Lanczos { lobes: 3.0 },
+];
+
+/// The filter's own formula, not normalised, and its radius.
+fn formula(filter: PixelFilter, x: f64) -> f64 {
+    let inside = |radius: f64, f: f64| if x.abs() < radius { f } else { 0.0 };
+    match filter {
+        PixelFilter::Box => inside(0.5, 1.0),
+        PixelFilter::Tent { radius } => (1.0 - x.abs() / f64::from(radius)).max(0.0),
+        PixelFilter::Gaussian { stddev } => {
+            let s = f64::from(stddev);
+            inside(4.0 * s, (-x * x / (2.0 * s * s)).exp() - (-8f64).exp())
+        }
+        PixelFilter::Mitchell { b, c } => mitchell(x, b.into(), c.into()),
+        PixelFilter::CatmullRom => mitchell(x, 0.0, 0.5),
+        PixelFilter::Lanczos { lobes } => inside(lobes.into(), sinc(x) * sinc(x / f64::from(lobes))),
+    }
+}
+
+fn integral(f: impl Fn(f64) -> f64) -> f64 {
+    const N: usize = 200_000;
+    let (a, b) = (-16.0, 16.0);
+    let h = (b - a) / N as f64;
+    (0..N).map(|i| f(a + (i as f64 + 0.5) * h)).sum::<f64>() * h
+}
+
+#[test]
+fn weighted_samples_have_the_moments_of_the_filter() {
+    // Midpoints of an even grid in u: no chance is involved.
+    const N: usize = 1 << 17;
+    for filter in FILTERS {
+        let sampler = PixelFilterSampler::new(filter);
+        for test in [|_: f64| 1.0, |x: f64| x, |x: f64| x * x, |x: f64| (2.0 * x).cos()] {
+            let truth = integral(|x| formula(filter, x) * test(x)) / integral(|x| formula(filter, x));
+            // The y axis is drawn the same way; its weight has mean 1 and is taken out at a fixed place.
+            let (_, at_center) = sampler.sample(Vec2::new(0.5, 0.5));
+            let weight_y = at_center.abs().sqrt();
+            let mean = (0..N)
+                .map(|i| {
+                    let (p, weight) = sampler.sample(Vec2::new((i as f32 + 0.5) / N as f32, 0.5));
+                    f64::from(weight / weight_y) * test(p.x.into())
+                })
+                .sum::<f64>()
+                / N as f64;
+            assert!((mean - truth).abs() < 2e-4 * (1.0 + truth.abs()), "{filter:?}: {mean}, not {truth}");
+        }
+    }
+}
+
+#[test]
+fn weights_are_one_without_negative_lobes_and_else_a_constant_with_sign() {
+    for filter in FILTERS {
+        let sampler = PixelFilterSampler::new(filter);
+        let absolute = integral(|x| formula(filter, x).abs()) / integral(|x| formula(filter, x));
+        let negative = (absolute - 1.0).abs() > 1e-6;
+        for i in 0..4096u32 {
+            let u = Vec2::new((i % 64) as f32 / 64.0, (i / 64) as f32 / 64.0);
+            let (p, weight) = sampler.sample(u);
+            if negative {
+                let sign = (formula(filter, p.x.into()) * formula(filter, p.y.into())).signum();
+                let truth = absolute * absolute * sign;
+                // Within a bin of a change of sign either will do.
+                let near_zero = [p.x, p.y].iter().any(|&x| formula(filter, x.into()).abs() < 0.01);
+                assert!((f64::from(weight) - truth).abs() < 1e-5 || near_zero, "{filter:?} {p}: {weight}");
+            } else {
+                assert_eq!(weight, 1.0, "{filter:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn both_axes_follow_the_same_profile_and_keep_the_order_of_u() {
+    for filter in FILTERS {
+        let sampler = PixelFilterSampler::new(filter);
+        let mut last = f32::NEG_INFINITY;
+        for i in 0..=1000 {
+            let u = (i as f32 / 1000.0).min(1.0 - f32::EPSILON / 2.0);
+            let (p, weight) = sampler.sample(Vec2::new(u, 0.3));
+            let (q, weight_turned) = sampler.sample(Vec2::new(0.3, u));
+            assert_eq!((p, weight), (q.yx(), weight_turned));
+            assert!(p.x >= last && p.is_finite(), "{filter:?} at {u}");
+            last = p.x;
+        }
+    }
+}
+
+#[test]
+fn parameters_that_make_no_filter_make_a_box() {
+    for bad in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-40, f32::MAX] {
+        for filter in [
+            PixelFilter::Tent { radius: bad },
+            PixelFilter::Gaussian { stddev: bad },
+            PixelFilter::Lanczos { lobes: bad },
+            PixelFilter::Mitchell { b: bad, c: bad },
+        ] {
+            let (p, weight) = PixelFilterSampler::new(filter).sample(Vec2::new(0.7, 0.9));
+            assert!(!p.is_nan() && weight.is_finite(), "{filter:?}: {p} {weight}");
+        }
+    }
+}
