@@ -3,10 +3,38 @@
 //! [`Scene`] is what every reader produces and what the renderer takes: no file format shows
 //! in it, and no acceleration structure or sampling table either. Transforms are `f64`, so
 //! that a scene far from its origin keeps its digits until the renderer has moved it to the camera.
+//!
+//! [`load`] reads a file, [`load_str`] a text. Today both speak Mitsuba XML, of versions 0.x and 2 to 3. What a file
+//! says and limpid cannot honour is among the scene's [`warnings`](Scene::warnings), each with its place; what makes
+//! no scene is a [`SceneError`]. No input makes the readers panic, hang, or take memory beyond a constant times its size.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! let xml = r#"<scene version="3.0.0">
+//!     <default name="grey" value="0.8"/>
+//!     <shape type="sphere" id="ball">
+//!         <float name="radius" value="2"/>
+//!         <bsdf type="diffuse"><rgb name="reflectance" value="$grey"/></bsdf>
+//!     </shape>
+//!     <emitter type="constant"/>
+//! </scene>"#;
+//! let scene = limpid_scenes::load_str(xml, Path::new("."), &Default::default())?;
+//! assert_eq!(scene.shapes[0].name, "ball");
+//! assert_eq!(scene.cameras.len(), 1); // the file has none: a default stands in, with a warning
+//! assert!(scene.warnings[0].message.contains("no sensor"));
+//! # Ok::<(), limpid_scenes::SceneError>(())
+//! ```
 
 mod error;
+mod files;
+mod image;
 mod load;
+mod mesh;
+mod mitsuba;
+mod nearest;
 mod scene;
+mod spectrum;
 
 pub use error::SceneError;
 pub use load::{LoadOptions, load, load_str};

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::{Scene, SceneError};
+use crate::files::Files;
+use crate::{Scene, SceneError, mitsuba};
 
 /// How a scene file is to be read.
 #[derive(Clone, Debug, Default)]
@@ -20,23 +21,66 @@ pub struct LoadOptions {
 /// The first thing in the file, or in a file that it names, that makes no scene. Whatever can be
 /// left out or replaced is a [`Warning`](crate::Warning) of the scene instead.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
-    let _ = options;
-    Err(SceneError {
-        file: path.into(),
-        line: 0,
-        column: 0,
-        element: "scene".into(),
-        problem: "no format is read yet".into(),
-        help: "wait for the readers".into(),
-    })
+    let mut files = Files::default();
+    let bytes = files
+        .read(path)
+        .map_err(|error| file_error(path, error.to_string(), "name a scene file that can be read"))?;
+    if let Some(format) = other_format(&bytes, path) {
+        let help = "render a Mitsuba scene (.xml) that holds the model, or wait for this reader";
+        return Err(file_error(path, format!("{format} is not read yet"), help));
+    }
+    files.folders.push(path.parent().unwrap_or(Path::new("")).to_path_buf());
+    strictly(mitsuba::read(bytes, path, files, options)?, options)
 }
 
 /// Reads a scene from the text of a Mitsuba XML file; files that it names are looked for in `base_dir`.
+///
+/// Errors and warnings call the text `(text)`, in that folder.
 ///
 /// # Errors
 ///
 /// As [`load`].
 pub fn load_str(text: &str, base_dir: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
-    let _ = text;
-    load(base_dir, options)
+    let mut files = Files::default();
+    files.count(text.as_bytes());
+    files.folders.push(base_dir.to_path_buf());
+    strictly(mitsuba::read(text.into(), &base_dir.join("(text)"), files, options)?, options)
 }
+
+/// Turns the first unused parameter into an error, if that is asked for.
+fn strictly(scene: Scene, options: &LoadOptions) -> Result<Scene, SceneError> {
+    let unused = scene.warnings.iter().find(|warning| options.strict && warning.unused_parameter);
+    match unused {
+        Some(warning) => {
+            let help = "correct its name, remove it, or read the file without --strict";
+            Err(SceneError::at(&warning.place, &warning.element, warning.message.as_str(), help))
+        }
+        None => Ok(scene),
+    }
+}
+
+fn file_error(file: &Path, problem: String, help: &str) -> SceneError {
+    SceneError { file: file.into(), line: 0, column: 0, element: "scene".into(), problem, help: help.into() }
+}
+
+/// The name of a known format that is not Mitsuba's.
+fn other_format(bytes: &[u8], path: &Path) -> Option<&'static str> {
+    let text = bytes.trim_ascii_start();
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+    if bytes.starts_with(b"glTF") {
+        return Some("binary glTF");
+    }
+    if text.starts_with(b"<") {
+        return None;
+    }
+    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "gltf" | "glb" => Some("glTF"),
+        "obj" => Some("OBJ as a scene"),
+        "ply" => Some("PLY as a scene"),
+        _ if text.starts_with(b"{") => Some("glTF"),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests;

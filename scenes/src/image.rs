@@ -1,0 +1,75 @@
+//! Decoding of pictures: PNG, JPEG, BMP, Radiance HDR and OpenEXR.
+
+mod exr;
+
+use std::io::Cursor;
+
+use image::{DynamicImage, ImageDecoder, ImageReader};
+
+use crate::spectrum::linear_from_srgb;
+use crate::{Image, Texels};
+
+/// No format here packs pixels tighter than this; what claims to is refused before memory is taken.
+const MAX_EXPANSION: u64 = 4096;
+/// Bytes that a decoded picture may take whatever its file's size.
+const MAX_DECODED: u64 = 16 << 30;
+
+/// Bytes that the picture in a file of `file_len` bytes may take.
+fn allowance(file_len: usize) -> u64 {
+    (file_len as u64).saturating_mul(MAX_EXPANSION).saturating_add(64 << 10).min(MAX_DECODED)
+}
+
+/// Decodes a picture; the format is told by the content. `raw`: bytes are linear values, not sRGB-encoded ones.
+///
+/// # Errors
+///
+/// One clause that says what is wrong.
+pub(crate) fn decode(bytes: &[u8], raw: bool) -> Result<Image, String> {
+    if bytes.starts_with(&exr::MAGIC) {
+        return exr::decode(bytes);
+    }
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| e.to_string())?;
+    if reader.format().is_none() {
+        return Err("not a PNG, JPEG, BMP, Radiance HDR or OpenEXR file".into());
+    }
+    let allowance = allowance(bytes.len());
+    let mut limits = image::Limits::default();
+    limits.max_alloc = Some(allowance);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(|e| e.to_string())?;
+    let (width, height) = decoder.dimensions();
+    if width == 0 || height == 0 {
+        return Err(format!("{width}x{height} pixels"));
+    }
+    if decoder.total_bytes() > allowance {
+        return Err(format!("{width}x{height} pixels cannot be in a file of {} bytes", bytes.len()));
+    }
+    let picture = DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
+    Ok(Image { width, height, texels: texels(picture, raw) })
+}
+
+fn texels(picture: DynamicImage, raw: bool) -> Texels {
+    match picture {
+        DynamicImage::ImageLuma8(_)
+        | DynamicImage::ImageLumaA8(_)
+        | DynamicImage::ImageRgb8(_)
+        | DynamicImage::ImageRgba8(_) => {
+            let values = picture.into_rgb8().into_raw();
+            if raw { Texels::Linear8(values) } else { Texels::Srgb8(values) }
+        }
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            Texels::Linear32(picture.into_rgb32f().into_raw())
+        }
+        // sixteen bits: kept whole as floats
+        _ => {
+            let mut values = picture.into_rgb32f().into_raw();
+            if !raw {
+                values.iter_mut().for_each(|value| *value = linear_from_srgb(*value));
+            }
+            Texels::Linear32(values)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

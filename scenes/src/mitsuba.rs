@@ -1,0 +1,242 @@
+//! Mitsuba XML: the language of versions 0.x and 2 to 3, and the plugins that limpid renders.
+//!
+//! Reading goes in two steps. `document` makes a flat list of elements of the text: includes are spliced in,
+//! `$parameters` expanded, old names turned into new ones, every element with its place. Then each object is read
+//! through [`Object`](object::Object), which remembers what was asked for, so that the rest can be warned of.
+
+mod bsdfs;
+mod camera;
+mod document;
+mod emitters;
+mod guard;
+mod integrator;
+mod object;
+mod parameters;
+mod shapes;
+mod survey;
+mod text;
+mod textures;
+mod value;
+
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use self::document::{Document, Element, ElementId};
+use self::object::Object;
+use crate::files::{Files, Found};
+use crate::mesh::{LoadedMesh, MeshOptions};
+use crate::nearest::suggest;
+use crate::{Color, Image, LoadOptions, MaterialId, Medium, MediumId, Place, Scene, SceneError, Warning};
+
+/// Objects inside one another through references. Real files have about 4.
+const MAX_NESTING: usize = 32;
+
+/// Reads a scene from the bytes of an XML file. The bytes must have entered the hash of `files` already.
+pub(crate) fn read(
+    bytes: Vec<u8>,
+    file: &Path,
+    mut files: Files,
+    options: &LoadOptions,
+) -> Result<Scene, SceneError> {
+    let xml = text::decode(bytes, file)?;
+    let document = Document::parse(&xml, file, &mut files, options)?;
+    let mut reader = Reader::new(&document, files);
+    reader.scene()?;
+    let Reader { mut scene, mut warnings, files, .. } = reader;
+    scene.file = file.into();
+    scene.content_hash = files.hash();
+    warnings.extend(document.warnings.iter().cloned());
+    warnings.sort_by_key(|(id, _)| *id); // in the order of the file, whatever order references made
+    scene.warnings = warnings.into_iter().map(|(_, warning)| warning).collect();
+    Ok(scene)
+}
+
+/// The scene so far, and what its objects share.
+struct Reader<'d> {
+    document: &'d Document,
+    files: Files,
+    scene: Scene,
+    warnings: Vec<(ElementId, Warning)>,
+    materials: HashMap<ElementId, MaterialId>,
+    /// Materials that stand in for a BSDF that is not given: grey, and black for emitters.
+    default_materials: [Option<MaterialId>; 2],
+    textures: HashMap<ElementId, Color>,
+    media: HashMap<ElementId, MediumId>,
+    meshes: HashMap<(PathBuf, MeshOptions), LoadedMesh>,
+    images: HashMap<(PathBuf, bool), Arc<Image>>,
+    /// Objects that are being read: one that comes up again contains itself.
+    open: HashSet<ElementId>,
+    /// Objects that something refers to, so that a light that belongs to a shape is not missed at the top.
+    referenced: HashSet<ElementId>,
+}
+
+impl<'d> Reader<'d> {
+    fn new(document: &'d Document, files: Files) -> Self {
+        let references = document.elements.iter().filter(|element| element.tag == "ref");
+        let targets = references.filter_map(|element| document.by_id(element.attribute("id")?));
+        Self {
+            document,
+            files,
+            scene: Scene::default(),
+            warnings: Vec::new(),
+            materials: HashMap::new(),
+            default_materials: [None; 2],
+            textures: HashMap::new(),
+            media: HashMap::new(),
+            meshes: HashMap::new(),
+            images: HashMap::new(),
+            open: HashSet::new(),
+            referenced: targets.collect(),
+        }
+    }
+
+    fn scene(&mut self) -> Result<(), SceneError> {
+        let mut integrators = 0;
+        let mut backgrounds = 0;
+        for &id in &self.document.top {
+            let element = self.document.element(id);
+            match element.tag.as_str() {
+                "integrator" => {
+                    integrators += 1;
+                    if integrators > 1 {
+                        self.warn(id, "a second integrator is left out: a scene has one");
+                        continue;
+                    }
+                    self.integrator(id)?;
+                }
+                "sensor" => self.camera(id)?,
+                "shape" => self.shape(id)?,
+                "bsdf" => _ = self.material(id)?,
+                "texture" => _ = self.texture(id)?,
+                "medium" => _ = self.medium(id)?,
+                "emitter" if self.referenced.contains(&id) => {} // read with its shape
+                "emitter" => {
+                    let lights = self.scene.lights.len();
+                    self.emitter(id, backgrounds > 0)?;
+                    backgrounds += self.scene.lights.len() - lights;
+                }
+                // these may stand apart, to be referred to
+                "film" | "sampler" | "rfilter" | "phase" | "volume" | "spectrum" => {}
+                "ref" => self.warn(id, "a reference at the top of a scene means nothing and is passed over"),
+                tag => {
+                    let help = suggest(tag, "elements", survey::TOP.iter().copied());
+                    return Err(SceneError::at(
+                        &element.place,
+                        tag,
+                        format!("unknown element <{}>", value::shorten(tag)),
+                        help,
+                    ));
+                }
+            }
+        }
+        if self.scene.cameras.is_empty() {
+            self.default_camera();
+        }
+        Ok(())
+    }
+
+    /// Adds a warning about an element.
+    fn warn(&mut self, id: ElementId, message: impl Into<String>) {
+        let element = self.document.element(id);
+        let warning = Warning {
+            place: element.place.clone(),
+            element: element.label(),
+            message: message.into(),
+            unused_parameter: false,
+        };
+        self.warnings.push((id, warning));
+    }
+
+    /// Runs `read` on an object that may contain others, which must not contain it in turn.
+    fn nested<T>(
+        &mut self,
+        id: ElementId,
+        read: impl FnOnce(&mut Self) -> Result<T, SceneError>,
+    ) -> Result<T, SceneError> {
+        let element = self.document.element(id);
+        if !self.open.insert(id) {
+            let problem = "the object contains itself, in the end";
+            return Err(SceneError::at(
+                &element.place,
+                &element.label(),
+                problem,
+                "cut the circle of references",
+            ));
+        }
+        if self.open.len() > MAX_NESTING {
+            let problem = format!("objects nested more than {MAX_NESTING} deep");
+            return Err(SceneError::at(&element.place, &element.label(), problem, "nest less"));
+        }
+        let result = read(self);
+        self.open.remove(&id);
+        result
+    }
+
+    /// A medium, which is known by name only.
+    fn medium(&mut self, id: ElementId) -> Result<MediumId, SceneError> {
+        if let Some(&known) = self.media.get(&id) {
+            return Ok(known);
+        }
+        let object = Object::new(self.document, id);
+        let kind = object.kind()?.to_string();
+        let name = self.name(&object, &kind, self.scene.media.len());
+        let medium = MediumId(self.scene.media.len() as u32);
+        self.scene.media.push(Medium { name, kind, place: object.place() });
+        self.media.insert(id, medium);
+        Ok(medium)
+    }
+
+    /// The id of an object, or its kind and its number in a list of `count` so far.
+    fn name(&self, object: &Object<'_>, kind: &str, count: usize) -> String {
+        object.element.attribute("id").map_or_else(|| format!("{kind} {}", count + 1), String::from)
+    }
+
+    /// The file that the parameter `filename` names.
+    fn file(&mut self, object: &Object<'_>) -> Result<PathBuf, SceneError> {
+        let Some((name, parameter)) = object.string("filename")? else {
+            return Err(
+                object.error("no \"filename\"", "name the file: <string name=\"filename\" value=\"…\"/>")
+            );
+        };
+        self.find(name, parameter, &object.element.label())
+    }
+
+    /// Looks for a file that the element `naming` names, for the object called `label`.
+    fn find(&mut self, name: &str, naming: &Element, label: &str) -> Result<PathBuf, SceneError> {
+        let attribute = if naming.attribute("value").is_some() { "value" } else { "filename" };
+        let place = naming.place_of(attribute);
+        match self.files.find(name, &place.file) {
+            Some(Found { path, respelt }) => {
+                if respelt {
+                    let message =
+                        format!("the file \"{}\" was found as {}", value::shorten(name), path.display());
+                    let warning = Warning { place, element: label.into(), message, unused_parameter: false };
+                    self.warnings.push((naming.id, warning));
+                }
+                Ok(path)
+            }
+            None => {
+                let problem = format!("the file \"{}\" is not there", value::shorten(name));
+                let mut help = String::from("names are looked for beside the scene");
+                if !self.files.folders.is_empty() {
+                    let folders: Vec<_> =
+                        self.files.folders.iter().map(|f| f.display().to_string()).collect();
+                    help += &format!(" and in {}", folders.join(", "));
+                }
+                Err(SceneError::at(&place, label, problem, help))
+            }
+        }
+    }
+
+    /// The whole of a file that an object names.
+    fn bytes(&mut self, path: &Path, place: &Place, label: &str) -> Result<Vec<u8>, SceneError> {
+        self.files.read(path).map_err(|error| {
+            let problem = format!("{}: {error}", path.display());
+            SceneError::at(place, label, problem, "name a file that can be read")
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

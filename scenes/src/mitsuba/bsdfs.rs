@@ -1,0 +1,280 @@
+//! `<bsdf>`: what surfaces are made of.
+
+use super::Reader;
+use super::document::ElementId;
+use super::object::Object;
+use super::survey::{BSDFS, NAMED_IORS, Standing};
+use super::value::shorten;
+use crate::nearest::suggest;
+use crate::spectrum::{self, Quantity};
+use crate::{
+    Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Place, Rgb, Scalar, SceneError,
+};
+
+const WHITE: Color = Color::Constant([1.0; 3]);
+const GREY: Color = Color::Constant([0.5; 3]);
+
+/// Where the colour stands that a diffuse stand-in takes over.
+const BASE_COLORS: [&str; 3] = ["reflectance", "diffuse_reflectance", "base_color"];
+
+impl Reader<'_> {
+    /// A material, read once however often it is referred to.
+    pub(super) fn material(&mut self, id: ElementId) -> Result<MaterialId, SceneError> {
+        if let Some(&known) = self.materials.get(&id) {
+            return Ok(known);
+        }
+        let material = self.nested(id, |reader| reader.new_material(id))?;
+        self.materials.insert(id, material);
+        Ok(material)
+    }
+
+    fn new_material(&mut self, id: ElementId) -> Result<MaterialId, SceneError> {
+        let object = Object::new(self.document, id);
+        let kind = object.kind()?;
+        let parameters = match BSDFS.standing(kind, object.element)? {
+            Standing::Later => match self.stand_in(&object, kind)? {
+                Ok(inner) => return Ok(inner),
+                Err(diffuse) => diffuse,
+            },
+            Standing::Now if kind == "twosided" => match self.two_sided(&object)? {
+                Ok(inner) => return Ok(inner),
+                Err(sides) => sides,
+            },
+            Standing::Now => self.model(&object, kind)?,
+        };
+        let name = self.name(&object, kind, self.scene.materials.len());
+        let place = object.place();
+        object.finish(&mut self.warnings);
+        Ok(self.add_material(name, parameters, place))
+    }
+
+    fn add_material(&mut self, name: String, kind: MaterialKind, place: Place) -> MaterialId {
+        let id = MaterialId(self.scene.materials.len() as u32);
+        self.scene.materials.push(Material { name, kind, place });
+        id
+    }
+
+    /// The material of a shape that names none: grey, or black if it emits.
+    pub(super) fn default_material(&mut self, emits: bool, place: &Place) -> MaterialId {
+        if let Some(known) = self.default_materials[usize::from(emits)] {
+            return known;
+        }
+        let (name, reflectance) = if emits { ("black", Color::Constant([0.0; 3])) } else { ("grey", GREY) };
+        let material = self.add_material(name.into(), MaterialKind::Diffuse { reflectance }, place.clone());
+        self.default_materials[usize::from(emits)] = Some(material);
+        material
+    }
+
+    /// What takes the place of a BSDF that is not read yet: the one inside it, or else a diffuse one of its colour.
+    fn stand_in(
+        &mut self,
+        object: &Object<'_>,
+        kind: &str,
+    ) -> Result<Result<MaterialId, MaterialKind>, SceneError> {
+        if let Some(&(inner, _)) = object.nested("bsdf")?.first() {
+            self.warn(object.id, format!("{kind}: not read yet; the bsdf inside stands in"));
+            return self.material(inner).map(Ok);
+        }
+        let mut reflectance = GREY;
+        for key in BASE_COLORS {
+            reflectance = self.color(object, key, Quantity::Reflectance, reflectance)?;
+        }
+        object.all_without_effect();
+        self.warn(object.id, format!("{kind}: not read yet; a diffuse bsdf stands in"));
+        Ok(Err(MaterialKind::Diffuse { reflectance }))
+    }
+
+    fn two_sided(&mut self, object: &Object<'_>) -> Result<Result<MaterialId, MaterialKind>, SceneError> {
+        let (front, back) = match object.nested("bsdf")?[..] {
+            [(both, _)] => {
+                let both = self.material(both)?;
+                (both, both)
+            }
+            [(front, _), (back, _)] => (self.material(front)?, self.material(back)?),
+            ref sides => {
+                let problem = format!("{} bsdfs inside", sides.len());
+                return Err(object.error(problem, "nest one bsdf for both sides, or one for each"));
+            }
+        };
+        let is =
+            |id: MaterialId, test: fn(&MaterialKind) -> bool| test(&self.scene.materials[id.0 as usize].kind);
+        if is(front, |kind| matches!(kind, MaterialKind::Dielectric { .. }))
+            || is(back, |kind| matches!(kind, MaterialKind::Dielectric { .. }))
+        {
+            let glass =
+                if is(front, |kind| matches!(kind, MaterialKind::Dielectric { .. })) { front } else { back };
+            self.warn(object.id, "glass has two sides by itself: twosided is left out");
+            return Ok(Ok(glass));
+        }
+        let side = |id: MaterialId, behind: bool| match self.scene.materials[id.0 as usize].kind {
+            MaterialKind::TwoSided { back, .. } if behind => back,
+            MaterialKind::TwoSided { front, .. } => front,
+            _ => id,
+        };
+        Ok(Err(MaterialKind::TwoSided { front: side(front, false), back: side(back, front == back) }))
+    }
+
+    fn model(&mut self, object: &Object<'_>, kind: &str) -> Result<MaterialKind, SceneError> {
+        // how to draw directions, or how Mitsuba weighs lobes: no matter of the picture
+        object.without_effect(&["sample_visible", "specular_sampling_weight", "fast_float"]);
+        Ok(match kind {
+            "diffuse" => {
+                let mut reflectance = self.color(object, "reflectance", Quantity::Reflectance, GREY)?;
+                if object.element.is_old {
+                    reflectance =
+                        self.color(object, "diffuse_reflectance", Quantity::Reflectance, reflectance)?;
+                }
+                MaterialKind::Diffuse { reflectance }
+            }
+            "conductor" => MaterialKind::Conductor {
+                ior: self.conductor_ior(object)?,
+                specular_reflectance: self.tint(object, "specular_reflectance")?,
+            },
+            "roughconductor" => {
+                let distribution = self.distribution(object)?;
+                let alpha = self.alpha(object, "alpha", Scalar::Constant(0.1))?;
+                MaterialKind::RoughConductor {
+                    distribution,
+                    alpha_u: self.alpha(object, "alpha_u", alpha)?,
+                    alpha_v: self.alpha(object, "alpha_v", alpha)?,
+                    ior: self.conductor_ior(object)?,
+                    specular_reflectance: self.tint(object, "specular_reflectance")?,
+                }
+            }
+            "dielectric" => MaterialKind::Dielectric {
+                int_ior: ior(object, "int_ior", 1.5046)?,
+                ext_ior: ior(object, "ext_ior", 1.000277)?,
+                specular_reflectance: self.tint(object, "specular_reflectance")?,
+                specular_transmittance: self.tint(object, "specular_transmittance")?,
+            },
+            "plastic" => MaterialKind::Plastic {
+                int_ior: ior(object, "int_ior", 1.49)?,
+                ext_ior: ior(object, "ext_ior", 1.000277)?,
+                diffuse_reflectance: self.color(
+                    object,
+                    "diffuse_reflectance",
+                    Quantity::Reflectance,
+                    GREY,
+                )?,
+                specular_reflectance: self.tint(object, "specular_reflectance")?,
+                nonlinear: object.boolean("nonlinear", false)?,
+            },
+            _ => MaterialKind::RoughPlastic {
+                distribution: self.distribution(object)?,
+                alpha: width(object, "alpha")?,
+                int_ior: ior(object, "int_ior", 1.49)?,
+                ext_ior: ior(object, "ext_ior", 1.000277)?,
+                diffuse_reflectance: self.color(
+                    object,
+                    "diffuse_reflectance",
+                    Quantity::Reflectance,
+                    GREY,
+                )?,
+                specular_reflectance: self.tint(object, "specular_reflectance")?,
+                nonlinear: object.boolean("nonlinear", false)?,
+            },
+        })
+    }
+
+    /// A factor on a reflection or transmission, 1 where the file says nothing.
+    fn tint(&mut self, object: &Object<'_>, key: &'static str) -> Result<Color, SceneError> {
+        self.color(object, key, Quantity::Reflectance, WHITE)
+    }
+
+    /// A microfacet width.
+    fn alpha(
+        &mut self,
+        object: &Object<'_>,
+        key: &'static str,
+        default: Scalar,
+    ) -> Result<Scalar, SceneError> {
+        if object.find(key).is_none() {
+            return Ok(default);
+        }
+        self.scalar(object, key, 0.0, WIDTH, is_width)
+    }
+
+    fn distribution(&mut self, object: &Object<'_>) -> Result<Distribution, SceneError> {
+        let words = [
+            ("beckmann", Some(Distribution::Beckmann)),
+            ("ggx", Some(Distribution::Ggx)),
+            ("phong", None),
+            ("as", None),
+        ];
+        Ok(object.choice("distribution", &words)?.unwrap_or_else(|| {
+            self.warn(object.id, "distributions of 0.x are not read; beckmann of the same alpha stands in");
+            Distribution::Beckmann
+        }))
+    }
+
+    /// `material`, or `eta` and `k`; `None` for the perfect mirror.
+    fn conductor_ior(&mut self, object: &Object<'_>) -> Result<Option<ConductorIor>, SceneError> {
+        let constant = |[eta, k]: [Rgb; 2]| ConductorIor { eta: Color::Constant(eta), k: Color::Constant(k) };
+        let named = object.string("material")?;
+        let mut ior = match named {
+            Some((name, parameter)) => match name.trim() {
+                none if none.eq_ignore_ascii_case("none") => None,
+                name => {
+                    let metal = spectrum::metal(name).ok_or_else(|| {
+                        let known = spectrum::metal_names().chain(["none"]);
+                        let help = suggest(name, "metals", known);
+                        object.value_error(parameter, format!("unknown metal \"{}\"", shorten(name)), help)
+                    })?;
+                    Some(constant(metal))
+                }
+            },
+            None => {
+                let given = object.find("eta").is_some() || object.find("k").is_some();
+                if given {
+                    let eta = self.color(object, "eta", Quantity::Ratio, Color::Constant([0.0; 3]))?;
+                    let k = self.color(object, "k", Quantity::Ratio, WHITE)?;
+                    Some(ConductorIor { eta, k })
+                } else if object.element.is_old {
+                    spectrum::metal("Cu").map(constant) // 0.x had no perfect mirror but "none"
+                } else {
+                    None
+                }
+            }
+        };
+        if object.find("ext_eta").is_some() {
+            let outside = super::bsdfs::ior(object, "ext_eta", 1.0)?;
+            if let Some(ior) = &mut ior {
+                for part in [&mut ior.eta, &mut ior.k] {
+                    match part {
+                        Color::Constant(value) => *value = value.map(|v| v / outside),
+                        Color::Texture(_) => {
+                            self.warn(object.id, "ext_eta does not count for textured eta and k")
+                        }
+                    }
+                }
+            }
+        }
+        Ok(ior)
+    }
+}
+
+/// What a microfacet width must be, in words and as a test. Zero is a smooth surface, which renderers may treat as such.
+const WIDTH: &str = "at least 0 and at most 10";
+fn is_width(alpha: f64) -> bool {
+    (0.0..=10.0).contains(&alpha)
+}
+
+fn width(object: &Object<'_>, key: &'static str) -> Result<f32, SceneError> {
+    Ok(object.float_where(key, 0.1, WIDTH, is_width)? as f32)
+}
+
+/// An index of refraction: a number, or the name of a substance.
+fn ior(object: &Object<'_>, key: &'static str, default: f64) -> Result<f32, SceneError> {
+    let value = match object.find(key) {
+        Some((_, parameter)) if parameter.tag == "string" => {
+            let name = parameter.attribute("value").unwrap_or_default().trim();
+            let known = NAMED_IORS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
+            known.map(|(_, ior)| *ior).ok_or_else(|| {
+                let help = suggest(name, "substances", NAMED_IORS.iter().map(|(name, _)| *name));
+                object.value_error(parameter, format!("unknown substance \"{}\"", shorten(name)), help)
+            })?
+        }
+        _ => object.float_where(key, default, "above 0 and at most 1000", |v| v > 1e-3 && v <= 1e3)?,
+    };
+    Ok(value as f32)
+}

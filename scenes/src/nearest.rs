@@ -1,0 +1,60 @@
+//! Known names, nearest first, for messages about unknown ones.
+
+/// `did you mean "diffuse"? known types: diffuse, dielectric, …`
+///
+/// The first clause only where a name is near enough to be meant.
+pub(crate) fn suggest<'a>(unknown: &str, what: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let mut ranked: Vec<_> = known.into_iter().map(|name| (distance(unknown, name), name)).collect();
+    ranked.sort();
+    ranked.dedup();
+    let Some(&(nearest, best)) = ranked.first() else {
+        return format!("remove it: there are no {what}");
+    };
+    let list: Vec<_> = ranked.iter().map(|(_, name)| *name).collect();
+    let list = list.join(", ");
+    if nearest <= 1 + best.chars().count() / 3 {
+        format!("did you mean \"{best}\"? known {what}: {list}")
+    } else {
+        format!("known {what}: {list}")
+    }
+}
+
+/// Edit distance of Levenshtein 1966, without regard to capitals. Only the first 64 characters count, which bounds the work.
+fn distance(a: &str, b: &str) -> usize {
+    let chars = |s: &str| s.chars().take(64).flat_map(char::to_lowercase).collect::<Vec<_>>();
+    let (a, b) = (chars(a), chars(b));
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(ca != cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nearest_name_comes_first() {
+        let text = suggest("difuse", "types", ["conductor", "dielectric", "diffuse"]);
+        assert!(text.starts_with("did you mean \"diffuse\"? known types: diffuse, "), "{text}");
+    }
+
+    #[test]
+    fn nothing_is_suggested_for_a_far_name() {
+        assert_eq!(suggest("xyzzy", "types", ["conductor"]), "known types: conductor");
+    }
+
+    #[test]
+    fn edit_distance_counts_insertions_deletions_and_substitutions() {
+        assert_eq!(distance("kitten", "sitting"), 3);
+        assert_eq!(distance("", "abc"), 3);
+        assert_eq!(distance("Sphere", "sphere"), 0);
+    }
+}
