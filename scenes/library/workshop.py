@@ -39,6 +39,13 @@ def grid(f, nu, nv, u=(0, 1), v=(0, 1), flip=False, normals=True):
     return finish(at(uu, vv), N, np.stack([uu, vv], -1), F)
 
 
+def quad(a, b, c, d):
+    """Counter-clockwise from the visible side."""
+    P = np.array([a, b, c, d], float)
+    N = np.tile(np.cross(P[1] - P[0], P[3] - P[0]), (4, 1))
+    return finish(P, N, [(0, 1), (1, 1), (1, 0), (0, 0)], [(0, 1, 2), (0, 2, 3)])  # v = 0 is a picture's top
+
+
 def spline(points, steps):
     """Catmull-Rom through the points, `steps` pieces between two of them."""
     p = np.asarray(points, float)
@@ -164,6 +171,14 @@ def ball(level=2):
         F = np.concatenate([np.stack(t, -1) for t in ((F[:, 0], a, c), (a, F[:, 1], b), (c, b, F[:, 2]), (a, b, c))])
     UV = np.stack([np.arctan2(P[:, 2], P[:, 0]) / TAU + 0.5, np.arccos(np.clip(P[:, 1], -1, 1)) / np.pi], -1)
     return finish(P, P.copy(), UV, F)
+
+
+def leaf(length, width, rise, droop, fold, cells=8):
+    """A pointed leaf from the origin along +x: raised by `rise` radians, drooping, folded along its middle."""
+    def f(u, v):  # u along the leaf, v across
+        s, x = u * length, width * np.sin(np.pi * np.clip(u, 0, 1) ** 0.75) ** 0.8 * (v - 0.5)
+        return s * np.cos(rise) * (1 - 0.15 * u), s * np.sin(rise) - droop * s**2 + fold * abs(v - 0.5) * width * 2, x
+    return grid(f, cells, 2, u=(0.0, 0.995), flip=True)
 
 
 def place(mesh, at=(0, 0, 0), turn=0, tilt=0, roll=0, scale=1):

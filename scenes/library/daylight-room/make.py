@@ -29,13 +29,6 @@ def texture(name, rgb, levels=48):
 
 # ---------------------------------------------------------------- shell
 
-def quad(a, b, c, d):
-    """Counter-clockwise from the visible side."""
-    P = np.array([a, b, c, d], float)
-    N = np.tile(np.cross(P[1] - P[0], P[3] - P[0]), (4, 1))
-    return ws.finish(P, N, [(0, 1), (1, 1), (1, 0), (0, 0)], [(0, 1, 2), (0, 2, 3)])  # v = 0 is a picture's top
-
-
 def window_wall():
     """The left wall as a grid with holes, and the reveals of the holes: watertight, no T-junctions inside the room."""
     zs = sorted([BACK, FRONT] + [z for w in WINDOWS for z in w])
@@ -43,13 +36,13 @@ def window_wall():
     for z0, z1 in zip(zs, zs[1:]):
         for y0, y1 in zip(ys, ys[1:]):
             if y0 != SILL or (z0, z1) not in WINDOWS:
-                out.append(quad((-X, y0, z1), (-X, y0, z0), (-X, y1, z0), (-X, y1, z1)))
+                out.append(ws.quad((-X, y0, z1), (-X, y0, z0), (-X, y1, z0), (-X, y1, z1)))
     o = -X - REVEAL
     for z0, z1 in WINDOWS:
-        out.append(quad((-X, SILL, z0), (o, SILL, z0), (o, SILL, z1), (-X, SILL, z1)))
-        out.append(quad((-X, HEAD, z1), (o, HEAD, z1), (o, HEAD, z0), (-X, HEAD, z0)))
-        out.append(quad((o, SILL, z0), (-X, SILL, z0), (-X, HEAD, z0), (o, HEAD, z0)))
-        out.append(quad((-X, SILL, z1), (o, SILL, z1), (o, HEAD, z1), (-X, HEAD, z1)))
+        out.append(ws.quad((-X, SILL, z0), (o, SILL, z0), (o, SILL, z1), (-X, SILL, z1)))
+        out.append(ws.quad((-X, HEAD, z1), (o, HEAD, z1), (o, HEAD, z0), (-X, HEAD, z0)))
+        out.append(ws.quad((o, SILL, z0), (-X, SILL, z0), (-X, HEAD, z0), (o, HEAD, z0)))
+        out.append(ws.quad((-X, SILL, z1), (o, SILL, z1), (o, HEAD, z1), (-X, HEAD, z1)))
     return out
 
 
@@ -79,7 +72,7 @@ def moulding(profile, path):
     out = []
     for a, b in zip(c, c[1:]):
         corner = lambda end, p: (end[0] + inward[0] * p[0], p[1], end[1] + inward[1] * p[0])
-        out.append(quad(corner(path[0], a), corner(path[0], b), corner(path[1], b), corner(path[1], a)))
+        out.append(ws.quad(corner(path[0], a), corner(path[0], b), corner(path[1], b), corner(path[1], a)))
     return ws.join(out)
 
 
@@ -88,10 +81,10 @@ CORNICE = [(0.0, H - 0.13), (0.012, H - 0.125), (0.018, H - 0.11), (0.022, H - 0
 WALLS = [((-X, FRONT), (-X, BACK)), ((-X, BACK), (X, BACK)), ((X, BACK), (X, FRONT)), ((X, FRONT), (-X, FRONT))]
 
 mesh("wall-windows", window_wall())
-mesh("wall-back", [quad((-X, 0, BACK), (X, 0, BACK), (X, H, BACK), (-X, H, BACK))])
-mesh("walls-other", [quad((X, 0, BACK), (X, 0, FRONT), (X, H, FRONT), (X, H, BACK)), quad((X, 0, FRONT), (-X, 0, FRONT), (-X, H, FRONT), (X, H, FRONT))])
-mesh("ceiling", [quad((-X, H, BACK), (X, H, BACK), (X, H, FRONT), (-X, H, FRONT))])
-floor = quad((-X, 0, FRONT), (X, 0, FRONT), (X, 0, BACK), (-X, 0, BACK))
+mesh("wall-back", [ws.quad((-X, 0, BACK), (X, 0, BACK), (X, H, BACK), (-X, H, BACK))])
+mesh("walls-other", [ws.quad((X, 0, BACK), (X, 0, FRONT), (X, H, FRONT), (X, H, BACK)), ws.quad((X, 0, FRONT), (-X, 0, FRONT), (-X, H, FRONT), (X, H, FRONT))])
+mesh("ceiling", [ws.quad((-X, H, BACK), (X, H, BACK), (X, H, FRONT), (-X, H, FRONT))])
+floor = ws.quad((-X, 0, FRONT), (X, 0, FRONT), (X, 0, BACK), (-X, 0, BACK))
 mesh("floor", (floor[0], floor[1], floor[0][:, [0, 2]], floor[3]), uv=True)
 mesh("joinery", [m for w in WINDOWS for m in casement(*w)] + [moulding(p, [(x, z) for x, z in w][::-1]) for w in WALLS for p in (SKIRTING, CORNICE)])
 
@@ -170,7 +163,7 @@ mesh("rug", ws.grid(rug, 44, 36), uv=True)
 texture("kilim", kilim(492, 696), 40)
 texture("landscape", landscape(288, 416), 48)
 mesh("picture-frame", picture(-0.30, 1.62, 1.04, 0.72, 0.055, 0.045))
-mesh("canvas", [quad((-0.82, 1.26, BACK + 0.02), (0.22, 1.26, BACK + 0.02), (0.22, 1.98, BACK + 0.02), (-0.82, 1.98, BACK + 0.02))], uv=True)
+mesh("canvas", [ws.quad((-0.82, 1.26, BACK + 0.02), (0.22, 1.26, BACK + 0.02), (0.22, 1.98, BACK + 0.02), (-0.82, 1.98, BACK + 0.02))], uv=True)
 
 
 # ---------------------------------------------------------------- wood
@@ -237,9 +230,9 @@ def book(width, height, depth, cell):
         x, xi = s * width / 2, s * (width / 2 - board)
         sides = [[(x, 0, e), (x, 0, back), (x, height, back), (x, height, e)], [(xi, height, e), (x, height, e), (x, height, back), (xi, height, back)],
                  [(xi, 0, back), (xi, 0, e), (xi, height, e), (xi, height, back)]]
-        cover += [plain(quad(*(q if s > 0 else q[::-1]))) for q in sides]
+        cover += [plain(ws.quad(*(q if s > 0 else q[::-1]))) for q in sides]
     w, h = width / 2 - board, height - 0.005
-    pages = [quad((-w, h, e), (w, h, e), (w, h, back + 0.004), (-w, h, back + 0.004))]
+    pages = [ws.quad((-w, h, e), (w, h, e), (w, h, back + 0.004), (-w, h, back + 0.004))]
     return ws.join(cover), ws.join(pages)
 
 
@@ -421,13 +414,6 @@ def vase(profile, at, n=32, steps=2):
     return ws.place(ws.lathe(profile, n=n, steps=steps), at)
 
 
-def leaf(length, width, rise, droop, fold, cells=8):
-    def f(u, v):  # u along the leaf, v across
-        s, x = u * length, width * np.sin(np.pi * np.clip(u, 0, 1) ** 0.75) ** 0.8 * (v - 0.5)
-        return s * np.cos(rise) * (1 - 0.15 * u), s * np.sin(rise) - droop * s**2 + fold * abs(v - 0.5) * width * 2, x
-    return ws.grid(f, cells, 2, u=(0.0, 0.995), flip=True)
-
-
 def plant(at, pot_top):
     rng, leaves, stems = np.random.default_rng(3), [], []
     for k in range(46):
@@ -442,7 +428,7 @@ def plant(at, pot_top):
             tip = tip - [0, 0.04, 0]
             stems.append(ws.tube([root + [0, 0.3 * h, 0], (root + tip) / 2 + [0, 0.08, 0], tip], [0.004, 0.003, 0.002], n=5, steps=2, ends=False))
         size = rng.uniform(0.24, 0.36)
-        leaves.append(ws.place(leaf(size, size * 0.42, np.radians(rng.uniform(5, 40)), rng.uniform(1.2, 2.2), 0.18), tip, turn=np.degrees(a), tilt=rng.uniform(-15, 15)))
+        leaves.append(ws.place(ws.leaf(size, size * 0.42, np.radians(rng.uniform(5, 40)), rng.uniform(1.2, 2.2), 0.18), tip, turn=np.degrees(a), tilt=rng.uniform(-15, 15)))
     return leaves, stems
 
 
@@ -464,7 +450,7 @@ for k in range(9):
     for j in range(7, 21, 2):
         for s in (0, 1):
             w = rng.uniform(0.030, 0.048) * (1.15 - j / 40)
-            sprays.append(ws.place(leaf(w * 1.5, w, np.radians(rng.uniform(0, 50)), 3.0, 0.1, 4), way[min(j, len(way) - 1)], turn=rng.uniform(0, 360), tilt=rng.uniform(-30, 30)))
+            sprays.append(ws.place(ws.leaf(w * 1.5, w, np.radians(rng.uniform(0, 50)), 3.0, 0.1, 4), way[min(j, len(way) - 1)], turn=rng.uniform(0, 360), tilt=rng.uniform(-30, 30)))
 mesh("twigs", twigs)
 mesh("sprays", sprays)
 mesh("white-glaze", [

@@ -78,7 +78,7 @@ def plaster(h, w):
 
 
 mesh("table", planks())
-mesh("cloth", ws.grid(cloth, 90, 112))
+mesh("cloth", ws.grid(cloth, 76, 96))
 texture("wood", ws.wood(512, 1024, 5, [(46, 26, 15), (96, 56, 31), (134, 84, 48), (166, 112, 68)], rings=6), 48)
 texture("linen", linen(512, 512), 32)
 texture("plaster", plaster(384, 512), 40)
