@@ -3,7 +3,7 @@
 use glam::DVec3;
 use limpid_scenes::{Camera as SceneCamera, Place, Scene};
 
-use crate::accel::Accel;
+use crate::accel::{Accel, Hit, NONE, Ray};
 use crate::effects::{Called, effects};
 use crate::geometry::Geometry;
 use crate::light::Lights;
@@ -78,5 +78,51 @@ impl Prepared {
     /// Number of triangles, built-in shapes included.
     pub fn triangles(&self) -> usize {
         self.geometry.triangles.len()
+    }
+}
+
+/// A ray in world space, for questions about a scene's geometry.
+#[derive(Clone, Copy, Debug)]
+pub struct WorldRay {
+    /// Origin.
+    pub o: DVec3,
+    /// Direction, not zero.
+    pub d: DVec3,
+}
+
+/// What a [`WorldRay`] hits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorldHit {
+    /// Distance in world units.
+    pub t: f64,
+    /// The point on the surface.
+    pub p: DVec3,
+    /// Geometric normal, unit.
+    pub ng: DVec3,
+    /// Index into the scene's shapes.
+    pub shape: u32,
+}
+
+impl Prepared {
+    /// The nearest hit of each ray; origin and direction are rounded to `f32` in the space of the camera.
+    pub fn cast(&self, rays: &[WorldRay]) -> Vec<Option<WorldHit>> {
+        let rays: Vec<Ray> = rays
+            .iter()
+            .map(|ray| Ray::new((ray.o - self.origin).as_vec3(), ray.d.normalize().as_vec3().normalize()))
+            .collect();
+        let mut hits = vec![Hit::MISS; rays.len()];
+        self.accel.closest(&rays, &mut hits);
+        let world = |(ray, hit): (&Ray, &Hit)| {
+            (hit.prim != NONE).then(|| {
+                let surface = self.geometry.surface(ray, hit);
+                WorldHit {
+                    t: hit.t.into(),
+                    p: surface.p.as_dvec3() + self.origin,
+                    ng: surface.ng.as_dvec3(),
+                    shape: surface.shape,
+                }
+            })
+        };
+        rays.iter().zip(&hits).map(world).collect()
     }
 }

@@ -1,5 +1,6 @@
 use glam::{DAffine3, DVec3, Vec3};
 
+use super::kernel::Blocks;
 use super::*;
 
 /// A small deterministic generator: tests need nothing better.

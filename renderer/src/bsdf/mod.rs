@@ -5,12 +5,21 @@
 //! the scene. `wo` and `wi` are unit and point away from the surface. One-sided models are zero
 //! unless both lie above; the caller turns `wo` and `wi` over for two-sided materials.
 
+mod albedo;
+mod conductor;
+mod dielectric;
 mod diffuse;
+pub mod fresnel;
+pub mod microfacet;
+mod plastic;
 
 use glam::{Vec2, Vec3};
 
 use crate::color::{Rgb, Split};
+pub use conductor::{Conductor, Metal, RoughConductor};
+pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
+pub use plastic::{Coating, Plastic};
 
 /// A sampled direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,41 +61,84 @@ pub struct BsdfFeatures {
     pub roughness: f32,
 }
 
+/// A lobe narrower than this counts as a mirror for the feature layers.
+const NEAR_DELTA_ALPHA: f32 = 0.01;
+
 /// Scattering at one hit.
 #[derive(Clone, Copy, Debug)]
-pub enum Bsdf {
+pub enum Bsdf<'a> {
     /// Lambert.
     Diffuse(Diffuse),
+    /// Smooth metal.
+    Conductor(Conductor),
+    /// Rough metal.
+    RoughConductor(RoughConductor),
+    /// Smooth glass.
+    Dielectric(Dielectric),
+    /// A coating over a diffuse base.
+    Plastic(Plastic<'a>),
 }
 
-impl Bsdf {
+impl Bsdf<'_> {
     /// Draws `wi`. `u` is uniform in `[0, 1)²` and `u_lobe` in `[0, 1)`; `None` where nothing is scattered.
+    #[inline]
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
-        let _ = u_lobe;
         match self {
             Self::Diffuse(b) => b.sample(wo, u),
+            Self::Conductor(b) => b.sample(wo),
+            Self::RoughConductor(b) => b.sample(wo, u),
+            Self::Dielectric(b) => b.sample(wo, u_lobe),
+            Self::Plastic(b) => b.sample(wo, u_lobe, u),
         }
     }
 
     /// Value and density of everything but delta lobes.
+    #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
         match self {
             Self::Diffuse(b) => b.eval(wo, wi),
+            Self::RoughConductor(b) => b.eval(wo, wi),
+            Self::Plastic(b) => b.eval(wo, wi),
+            Self::Conductor(_) | Self::Dielectric(_) => BsdfEval::ZERO,
         }
     }
 
     /// Whether there is anything that `eval` can see: whether a light sample is worth its ray.
+    #[inline]
     pub fn has_non_delta(&self) -> bool {
         match self {
-            Self::Diffuse(_) => true,
+            Self::Diffuse(_) | Self::RoughConductor(_) | Self::Plastic(_) => true,
+            Self::Conductor(_) | Self::Dielectric(_) => false,
+        }
+    }
+
+    /// Whether all of it is a mirror or glass, or so nearly that what it shows is a better feature than itself.
+    pub fn near_delta(&self) -> bool {
+        match self {
+            Self::Diffuse(_) | Self::Plastic(_) => false,
+            Self::RoughConductor(b) => b.microfacet.alpha_x.max(b.microfacet.alpha_y) < NEAR_DELTA_ALPHA,
+            Self::Conductor(_) | Self::Dielectric(_) => true,
         }
     }
 
     /// Albedo and roughness for the feature layers.
     pub fn features(&self, wo: Vec3) -> BsdfFeatures {
-        let _ = wo;
-        match self {
-            Self::Diffuse(b) => BsdfFeatures { albedo: b.albedo, diffuse_albedo: b.albedo, roughness: 1.0 },
-        }
+        let (albedo, diffuse_albedo, roughness) = match self {
+            Self::Diffuse(b) => (b.albedo, b.albedo, 1.0),
+            Self::Conductor(b) => (b.metal.reflectance(wo.z.max(0.0)), Rgb::ZERO, 0.0),
+            Self::RoughConductor(b) => {
+                let alpha = b.microfacet.alpha_x.max(b.microfacet.alpha_y);
+                (b.albedo(wo), Rgb::ZERO, alpha.sqrt())
+            }
+            Self::Dielectric(b) => {
+                let f = fresnel::dielectric(wo.z, b.eta).reflectance;
+                (b.reflectance * f + b.transmittance * (1.0 - f), Rgb::ZERO, 0.0)
+            }
+            Self::Plastic(b) => {
+                let (albedo, diffuse) = b.albedo(wo);
+                (albedo, diffuse, 1.0)
+            }
+        };
+        BsdfFeatures { albedo, diffuse_albedo, roughness }
     }
 }

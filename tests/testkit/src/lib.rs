@@ -1,1 +1,3 @@
 //! Statistical test tools.
+
+pub mod scene;

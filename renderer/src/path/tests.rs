@@ -1,0 +1,120 @@
+use glam::{DMat4, DVec3};
+use limpid_frame::{Layer, LayerRequest};
+use limpid_scenes::{Scene, ShapeKind};
+
+use super::*;
+use crate::camera::Camera;
+use crate::film::Sample;
+use crate::testing::{add, camera, diffuse, glow, mean, render, scene, sky};
+use crate::{Progress, Sampler, TileSamples};
+
+fn unit_sphere() -> ShapeKind {
+    ShapeKind::Sphere { center: DVec3::ZERO, radius: 1.0 }
+}
+
+/// A small room with everything that the integrator has: an area light, a sky, two shapes.
+fn room() -> Scene {
+    let mut scene = scene(camera(DVec3::new(0.0, -4.0, 1.5), DVec3::ZERO, 40, 24), vec![diffuse(0.7), diffuse(0.2)]);
+    add(&mut scene, ShapeKind::Rectangle, DMat4::from_scale(DVec3::splat(3.0)), 0);
+    add(&mut scene, unit_sphere(), DMat4::from_translation(DVec3::new(0.6, 0.0, 1.0)), 1);
+    let up = DMat4::from_translation(DVec3::new(-1.0, 0.0, 2.5)) * DMat4::from_rotation_x(std::f64::consts::PI);
+    add(&mut scene, ShapeKind::Rectangle, up * DMat4::from_scale(DVec3::splat(0.4)), 1).emission = glow(9.0);
+    sky(&mut scene, 0.2);
+    scene
+}
+
+#[test]
+fn closed_sphere_of_albedo_half_that_emits_half_has_radiance_one() {
+    let mut scene = scene(camera(DVec3::ZERO, DVec3::X, 8, 8), vec![diffuse(0.5)]);
+    let shape = add(&mut scene, unit_sphere(), DMat4::IDENTITY, 0);
+    shape.flip_normals = true;
+    shape.emission = glow(0.5);
+    let rendered = render(&scene, |s| (s.spp, s.rr_depth) = (256, 8));
+    // Sampling the sphere's inside by area or cosine alike leaves little variance; 1 % is five standard errors.
+    assert!((mean(&rendered, "R") - 1.0).abs() < 0.01, "{}", mean(&rendered, "R"));
+}
+
+#[test]
+fn batch_and_depth_first_driver_agree_to_the_bit() {
+    let scene = room();
+    let prepared = crate::Prepared::new(&scene, 0).unwrap();
+    let mut settings = crate::Settings::for_camera(&scene, 0);
+    (settings.spp, settings.layers) = (6, LayerRequest::all());
+    let cx = Context {
+        scene: &prepared,
+        camera: Camera::new(&prepared.camera, settings.width, settings.height),
+        filter: PixelFilterSampler::new(prepared.camera.film.filter),
+        settings: &settings,
+        features: true,
+    };
+    let compared = std::sync::atomic::AtomicU32::new(0);
+    let recorder = |tile: TileSamples| {
+        for (k, sample) in tile.samples.iter().enumerate() {
+            let (pixel, index) = (k as u32 / tile.spp, k as u32 % tile.spp);
+            let pixel = [tile.x + pixel % tile.width, tile.y + pixel / tile.width];
+            let alone: Sample = depth_first(&cx, pixel, index);
+            assert_eq!(sample.values.map(f32::to_bits), alone.values.map(f32::to_bits), "{pixel:?} {index}");
+            compared.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        }
+    };
+    crate::render(&prepared, &settings, &Progress::default(), Some(&recorder));
+    assert_eq!(compared.into_inner(), 40 * 24 * 6);
+}
+
+#[test]
+fn tiles_and_threads_change_no_bit() {
+    let frame = |tile, threads| render(&room(), |s| (s.spp, s.tile, s.threads) = (20, tile, Some(threads))).frame;
+    let one = frame(32, 1);
+    assert_eq!(one, frame(7, 2));
+    assert_eq!(one, frame(16, 5));
+}
+
+#[test]
+fn more_layers_change_no_bit_of_the_others() {
+    let few = render(&room(), |s| s.spp = 9).frame;
+    let all = render(&room(), |s| (s.spp, s.layers) = (9, LayerRequest::all())).frame;
+    for (name, plane) in few.channels() {
+        assert_eq!(Some(plane), all.channel(name), "{name}");
+    }
+}
+
+#[test]
+fn one_pixel_alone_has_the_bits_it_has_in_the_picture() {
+    let whole = render(&room(), |s| s.spp = 9).frame;
+    let crop = limpid_scenes::Crop { x: 17, y: 11, width: 1, height: 1 };
+    let alone = render(&room(), |s| (s.spp, s.crop) = (9, Some(crop))).frame;
+    for (name, plane) in alone.channels() {
+        assert_eq!(plane[0].to_bits(), whole.channel(name).unwrap()[11 * 40 + 17].to_bits(), "{name}");
+    }
+}
+
+#[test]
+fn components_add_up_to_the_beauty() {
+    let frame = render(&room(), |s| (s.spp, s.layers) = (33, LayerRequest::all())).frame;
+    for channel in ["R", "G", "B"] {
+        let part = |layer: Layer| frame.channel(&format!("{}.{channel}", layer.name())).unwrap();
+        let (d, s, e) = (part(Layer::Diffuse), part(Layer::Specular), part(Layer::Emission));
+        for (i, &beauty) in frame.channel(channel).unwrap().iter().enumerate() {
+            let largest = beauty.abs().max(d[i].abs()).max(s[i].abs()).max(e[i].abs());
+            let ulp = f64::from(largest.next_up()) - f64::from(largest);
+            let sum = f64::from(d[i]) + f64::from(s[i]) + f64::from(e[i]);
+            assert!((sum - f64::from(beauty)).abs() <= 2.0 * ulp, "pixel {i}: {sum} {beauty}");
+        }
+    }
+}
+
+#[test]
+fn samplers_and_depths_agree_on_direct_light() {
+    let value = |sampler, spp| mean(&render(&room(), |s| (s.sampler, s.spp, s.max_depth) = (sampler, spp, Some(2))), "G");
+    let (sobol, independent) = (value(Sampler::Sobol, 256), value(Sampler::Independent, 256));
+    // Both means have a standard error below 0.05 %.
+    assert!((sobol / independent - 1.0).abs() < 0.003, "{sobol} {independent}");
+}
+
+#[test]
+fn mis_weights_add_up_to_one_whatever_the_densities() {
+    for (a, b) in [(1.0, 1.0), (0.3, 7.0), (2.5e25, 0.3), (1e38, 1e-38), (1e-38, 1e38)] {
+        let sum = mis_weight(a, b) + mis_weight(b, a);
+        assert!((sum - 1.0f32).abs() < 1e-6, "{a} {b}: {sum}");
+    }
+}
