@@ -2,9 +2,10 @@
 
 use std::collections::HashSet;
 use std::io::{self, BufReader, Read, Seek};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use exr::block::chunk::Chunk;
+use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock, CompressedTileBlock};
 use exr::block::reader::{ChunksReader, Reader};
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::Error as ExrError;
@@ -12,7 +13,7 @@ use exr::math::Vec2;
 use exr::meta::MetaData;
 use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
-use exr::prelude::f16;
+use exr::prelude::{Compression, f16};
 use rayon::prelude::*;
 
 use super::{decode_text, is_metadata_name, text_of};
@@ -82,8 +83,14 @@ fn malformed(problem: impl Into<String>) -> Problem {
     Problem::Malformed(problem.into())
 }
 
-/// Decodes `length` bytes.
+/// Decodes `length` bytes. The crate's decoders assert and index as if blocks were well-formed; where one
+/// of them panics on damage, that is the file's fault and no reason to end the program.
 pub(super) fn decode(bytes: impl Read + Seek, length: u64) -> Result<Frame, Problem> {
+    catch_unwind(AssertUnwindSafe(|| decode_trusting(bytes, length)))
+        .unwrap_or_else(|_| Err(malformed("damaged EXR: a block makes no sense")))
+}
+
+fn decode_trusting(bytes: impl Read + Seek, length: u64) -> Result<Frame, Problem> {
     let reader = Reader::read_from_buffered(bytes, false)?;
     let size = check(reader.headers(), length)?;
     let names = channel_names(reader.headers())?;
@@ -196,9 +203,12 @@ fn read_blocks(
         if batch.is_empty() {
             break;
         }
-        let blocks: Vec<Result<UncompressedBlock, ExrError>> = batch
+        let blocks: Vec<Result<UncompressedBlock, Problem>> = batch
             .into_par_iter()
-            .map(|chunk| UncompressedBlock::decompress_chunk(chunk, &metadata, false))
+            .map(|chunk| {
+                check_dwa(&chunk, &metadata)?;
+                Ok(UncompressedBlock::decompress_chunk(chunk, &metadata, false)?)
+            })
             .collect();
         for block in blocks {
             let block = block?;
@@ -211,6 +221,37 @@ fn read_blocks(
         return Err(malformed(format!("{} of the EXR file's {expected} blocks are missing", missing.len())));
     }
     Ok(metadata)
+}
+
+/// Refuses a DWA block whose own header, eleven 64-bit words, declares more than its pixels can be: the
+/// crate would ask for that memory.
+fn check_dwa(chunk: &Chunk, metadata: &MetaData) -> Result<(), Problem> {
+    /// Bytes or 16-bit values of the four sections when unpacked.
+    const UNPACKED: [usize; 5] = [1, 6, 7, 8, 9];
+    let header = &metadata.headers[chunk.layer_index];
+    let (CompressedBlock::ScanLine(CompressedScanLineBlock { compressed_pixels_le: bytes, .. })
+    | CompressedBlock::Tile(CompressedTileBlock { compressed_pixels_le: bytes, .. })) =
+        &chunk.compressed_block
+    else {
+        return Ok(());
+    };
+    if !matches!(header.compression, Compression::DWAA(_) | Compression::DWAB(_)) {
+        return Ok(());
+    }
+    let place = header.get_block_data_indices(&chunk.compressed_block)?;
+    let size = header.get_absolute_block_pixel_coordinates(place)?.size;
+    if bytes.len() as u64 == bytes_of(size, header.channels.bytes_per_pixel) {
+        return Ok(()); // stored as it is, without such a header
+    }
+    // Transformed in squares of 8x8; run lengths can take twice the space of what they encode.
+    let padded = Vec2(size.width().next_multiple_of(8), size.height().next_multiple_of(8));
+    let limit = bytes_of(padded, header.channels.list.len().saturating_mul(8));
+    let (words, _) = bytes.as_chunks::<8>();
+    let too_large = |word: &usize| words.get(*word).is_some_and(|w| u64::from_le_bytes(*w) > limit);
+    if UNPACKED.iter().any(too_large) {
+        return Err(malformed("damaged EXR: a DWA block declares more than its pixels"));
+    }
+    Ok(())
 }
 
 /// Copies a block's rows to their places.
