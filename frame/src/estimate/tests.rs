@@ -8,7 +8,7 @@ const SIDE: usize = 64;
 fn truth() -> Vec<f64> {
     let at = |p: usize| {
         let (x, y) = ((p % SIDE) as f64, (p / SIDE) as f64);
-        let checker = if (p % SIDE / 16 + p / SIDE / 16) % 2 == 0 { 0.3 } else { 1.0 };
+        let checker = if (p % SIDE / 16 + p / SIDE / 16).is_multiple_of(2) { 0.3 } else { 1.0 };
         let disk = (x - 40.0).powi(2) + (y - 24.0).powi(2) < 100.0;
         if disk { 2.0 } else { (0.05 + 0.5 * x / SIDE as f64) * checker }
     };

@@ -4,6 +4,7 @@
 //! order changes from run to run, and the same frame must be the same file.
 
 mod read;
+mod window;
 mod write;
 
 #[cfg(test)]

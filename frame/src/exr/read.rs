@@ -16,6 +16,7 @@ use exr::meta::header::Header;
 use exr::prelude::{Compression, f16};
 use rayon::prelude::*;
 
+use super::window::empty_window;
 use super::{decode_text, is_metadata_name, text_of};
 use crate::whole::open_regular;
 use crate::{Frame, FrameError};
@@ -90,7 +91,12 @@ pub(super) fn decode(bytes: impl Read + Seek, length: u64) -> Result<Frame, Prob
         .unwrap_or_else(|_| Err(malformed("damaged EXR: a block makes no sense")))
 }
 
-fn decode_trusting(bytes: impl Read + Seek, length: u64) -> Result<Frame, Problem> {
+fn decode_trusting(mut bytes: impl Read + Seek, length: u64) -> Result<Frame, Problem> {
+    if let Some([x_min, y_min, x_max, y_max]) = empty_window(&mut bytes).map_err(Problem::Io)? {
+        return Err(malformed(format!(
+            "the EXR file holds nothing: dataWindow from ({x_min}, {y_min}) to ({x_max}, {y_max})"
+        )));
+    }
     let reader = Reader::read_from_buffered(bytes, false)?;
     let size = check(reader.headers(), length)?;
     let names = channel_names(reader.headers())?;

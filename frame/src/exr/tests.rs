@@ -138,10 +138,12 @@ fn layer(
     encoding: Encoding,
     channels: Vec<AnyChannel<FlatSamples>>,
 ) -> exr::image::Layer<AnyChannels<FlatSamples>> {
-    let mut attributes = LayerAttributes::default();
-    attributes.layer_name = name.map(Text::from);
-    attributes.layer_position = Vec2(-3, 1000);
-    attributes.comments = Some(Text::from("by the crate"));
+    let attributes = LayerAttributes {
+        layer_name: name.map(Text::from),
+        layer_position: Vec2(-3, 1000),
+        comments: Some(Text::from("by the crate")),
+        ..LayerAttributes::default()
+    };
     exr::image::Layer::new(size, attributes, encoding, AnyChannels::sort(channels.into()))
 }
 
@@ -301,8 +303,8 @@ fn hc46_a_hostile_header_is_refused_by_the_field() {
         ([0, 0, 32767, 32767], "dataWindow 32768x32768"),
         ([0, 0, i32::MAX - 1, i32::MAX - 1], "window size"),
         ([0, 0, i32::MAX - 1, 0], "window size"),
-        ([0, 0, -1, 5], "dataWindow 0x6"),
-        ([0, 0, -2, 5], "window"),
+        ([0, 0, -1, 5], "dataWindow from (0, 0) to (-1, 5)"),
+        ([0, 0, -2, 5], "dataWindow from (0, 0) to (-2, 5)"),
         ([i32::MIN, i32::MIN, i32::MAX, i32::MAX], "window"),
     ];
     for (corner, words) in corners {
