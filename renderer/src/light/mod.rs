@@ -1,143 +1,352 @@
-//! Lights, for the time being: triangles by area, spheres by cone, a constant sky by BSDF sampling alone.
-use crate::accel::SceneBounds;
-use crate::color::Rgb;
-use crate::geometry::{Geometry, Surface};
+//! Lights: the same contract as a BSDF's, seen from a point: draw a direction, give its density.
+//!
+//! All densities are per steradian and include the choice among the lights. Area lights emit on one side only, that of
+//! their geometric normal. Points are drawn and densities computed in `f64`: a lamp may be a billionth of its distance
+//! wide, or a million times as wide as it.
+
+mod choice;
+mod disk;
+mod environment;
+mod gather;
+mod rectangle;
+mod shape;
+mod sphere;
+mod triangle;
+mod triangles;
+
+use std::f64::consts::PI;
+
+use glam::{DVec2, DVec3, Vec2, Vec3};
+use limpid_scenes::{Color, Light as SceneLight, LightKind};
+
+use crate::color::{Rgb, luminance};
+use crate::sampling::Distribution1d;
 use crate::texture::Textures;
-use glam::{DVec3, Vec2, Vec3};
-use limpid_scenes::{Color, LightKind};
-#[derive(Clone, Copy)]
+use choice::{Weigh, choose_from};
+use disk::Disk;
+use environment::{Constant, EnvMap};
+use rectangle::Rectangle;
+pub use shape::{LightAnalytic, LightForm, LightRectangle, LightShape, LightTriangle};
+use sphere::Sphere;
+use triangles::Triangles;
+
+/// "No primitive": what the shadow ray of a light at infinity ignores.
+const NONE: u32 = u32::MAX;
+
+/// Shadow rays end this much before the light, as a share of the way: room for the rounding of the direction. What
+/// lies nearer to the light than that does not shade it.
+const SHORTEN: f64 = 1.0 - 1e-5;
+
+/// Index of a light: those with a surface first, in the order in which they were given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LightId(pub u32);
+
+/// A direction towards a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSample {
+    /// Unit, away from the point.
     pub wi: Vec3,
+    /// Length of the shadow ray; infinite for a light at infinity.
     pub t_max: f32,
+    /// Emitted towards the point.
     pub radiance: Rgb,
+    /// Positive and finite. Where the true density is beyond `f32`, the radiance is scaled with it.
     pub pdf: f32,
+    /// The primitive that the shadow ray must not see: the light's own.
     pub skip: u32,
 }
-enum Kind {
-    Tris(Vec<(u32, [Vec3; 3], Vec3, f32)>, f32),
-    Sphere(DVec3, f64, u32),
+
+/// A point on a light's surface that a ray has hit.
+#[derive(Clone, Copy, Debug)]
+pub struct LightHit {
+    /// In render space.
+    pub p: Vec3,
+    /// Geometric normal, on the side that the scene's author gave it.
+    pub ng: Vec3,
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// The primitive.
+    pub prim: u32,
 }
+
+/// What a light with a surface draws: a point that emits towards the one it is seen from.
+#[derive(Clone, Copy, Debug)]
+struct Drawn {
+    /// Unit.
+    wi: DVec3,
+    distance: f64,
+    /// Per steradian, without the choice of the light.
+    pdf: f64,
+    uv: Vec2,
+    prim: u32,
+}
+
+struct SurfaceLight {
+    form: Form,
+    emission: Color,
+}
+
+enum Form {
+    Triangles(Triangles),
+    Rectangle(Rectangle),
+    Sphere(Sphere),
+    Disk(Disk),
+}
+
+enum Infinite {
+    Constant(Constant),
+    EnvMap(EnvMap),
+}
+
+/// All lights of a scene.
 pub struct Lights {
-    lights: Vec<(Kind, Rgb)>,
-    of_shape: Vec<Option<u32>>,
-    sky: Option<Rgb>,
+    surfaces: Vec<SurfaceLight>,
+    infinite: Vec<Infinite>,
+    /// `None` if nothing emits.
+    choice: Option<Distribution1d>,
+    /// By shape: its light, or [`NONE`].
+    of_shape: Vec<u32>,
+    bad_texels: u64,
 }
+
 impl Lights {
-    pub fn new(scene: &limpid_scenes::Scene, g: &Geometry, _: &Textures, _: SceneBounds) -> Self {
-        let mut lights = Vec::new();
+    /// Builds the sampling tables. `scene_radius` is that of a sphere around the scene, in scene units.
+    pub fn from_shapes(
+        shapes: Vec<LightShape>,
+        infinite: &[SceneLight],
+        textures: &Textures,
+        scene_radius: f64,
+    ) -> Self {
         let mut of_shape = Vec::new();
-        for (i, s) in scene.shapes.iter().enumerate() {
-            let Some(e) = &s.emission else {
-                of_shape.push(None);
-                continue;
-            };
-            let Color::Constant(c) = e.radiance else {
-                of_shape.push(None);
-                continue;
-            };
-            of_shape.push(Some(lights.len() as u32));
-            let sh = &g.shapes[i];
-            let kind = if (sh.first_prim as usize) < g.triangles.len() {
-                let mut total = 0.0;
-                let t = (sh.first_prim..sh.first_prim + sh.prims)
-                    .map(|p| {
-                        let c = g.corners(p);
-                        let n = (c[1] - c[0]).cross(c[2] - c[0]);
-                        total += 0.5 * n.length();
-                        (p, c, n.normalize() * if g.is_turned(p) { -1.0 } else { 1.0 }, total)
-                    })
-                    .collect();
-                Kind::Tris(t, total)
-            } else {
-                let a = &g.analytics[sh.first_prim as usize - g.triangles.len()];
-                let m = a.frame.render_from_object;
-                Kind::Sphere(m.translation, m.matrix3.x_axis.length(), sh.first_prim)
-            };
-            lights.push((kind, Rgb::from(c)));
-        }
-        let sky = scene.lights.iter().find_map(|l| match l.kind {
-            LightKind::Constant { radiance } => Some(radiance.into()),
-            _ => None,
-        });
-        Self { lights, of_shape, sky }
-    }
-    pub fn of_shape(&self, s: u32) -> Option<LightId> {
-        self.of_shape[s as usize].map(LightId)
-    }
-    pub fn radiance(&self, l: LightId, s: &Surface, wo: Vec3, _: &Textures) -> Rgb {
-        if wo.dot(s.ng) > 0.0 { self.lights[l.0 as usize].1 } else { Rgb::ZERO }
-    }
-    pub fn hit(&self, l: LightId, p: Vec3, s: &Surface, wi: Vec3, t: &Textures) -> (Rgb, f32) {
-        let r = self.radiance(l, s, -wi, t);
-        let n = self.lights.len() as f32;
-        let pdf = match &self.lights[l.0 as usize].0 {
-            Kind::Tris(_, area) => (s.p - p).length_squared() / (area * wi.dot(s.ng).abs()),
-            Kind::Sphere(c, r, _) => {
-                let d2 = (*c - p.as_dvec3()).length_squared();
-                let s2 = r * r / d2;
-                (1.0 / (std::f64::consts::TAU * (s2 / (1.0 + (1.0 - s2).sqrt())))) as f32
+        for (light, shape) in shapes.iter().enumerate() {
+            let index = shape.shape as usize;
+            if of_shape.len() <= index {
+                of_shape.resize(index + 1, NONE);
             }
-        };
-        (r, pdf / n)
+            of_shape[index] = light as u32;
+        }
+        let surfaces: Vec<_> = shapes
+            .into_iter()
+            .map(|LightShape { form, emission, .. }| SurfaceLight { form: Form::new(form), emission })
+            .collect();
+        let infinite: Vec<_> = infinite.iter().map(|light| Infinite::new(&light.kind)).collect();
+        let of_surfaces = surfaces.iter().map(|light| light.weigh(textures));
+        let weights: Vec<_> =
+            of_surfaces.chain(infinite.iter().map(|light| light.weigh(scene_radius))).collect();
+        let bad_texels = infinite.iter().map(Infinite::bad_texels).sum();
+        Self { surfaces, infinite, choice: choose_from(&weights), of_shape, bad_texels }
     }
+
+    /// The light that a shape is.
+    #[inline]
+    pub fn of_shape(&self, shape: u32) -> Option<LightId> {
+        self.of_shape.get(shape as usize).filter(|&&light| light != NONE).map(|&light| LightId(light))
+    }
+
+    /// Whether light comes from infinity.
+    #[inline]
     pub fn has_infinite(&self) -> bool {
-        self.sky.is_some()
+        !self.infinite.is_empty()
     }
-    pub fn miss(&self, _: Vec3) -> impl Iterator<Item = (Rgb, f32)> + '_ {
-        self.sky.iter().map(|c| (*c, 0.0))
+
+    /// Texels of environment maps that are not finite or negative and count as 0: worth a warning.
+    pub fn bad_texels(&self) -> u64 {
+        self.bad_texels
     }
-    pub fn sample(&self, p: Vec3, u: f32, v: Vec2, _: &Textures) -> Option<LightSample> {
-        let n = self.lights.len();
-        if n == 0 {
-            return None;
+
+    /// Draws a direction from the point `p` towards a light. `choice` and `u` are uniform in [0, 1). `None` where
+    /// nothing is emitted towards `p` from what was drawn.
+    #[inline]
+    pub fn sample(&self, p: Vec3, choice: f32, u: Vec2, textures: &Textures) -> Option<LightSample> {
+        let lights = self.choice.as_ref()?;
+        let (light, rest) = lights.sample(choice.into());
+        let pmf = lights.pmf(light);
+        let u = u.as_dvec2();
+        if let Some(light) = self.surfaces.get(light) {
+            let drawn = light.form.sample(p.as_dvec3(), rest, u)?;
+            let (wi, t_max) = (drawn.wi.as_vec3(), (drawn.distance * SHORTEN) as f32);
+            let radiance = textures.color(light.emission, drawn.uv);
+            LightSample { wi, t_max, radiance, pdf: 0.0, skip: drawn.prim }.with_pdf(pmf * drawn.pdf)
+        } else {
+            let light = &self.infinite[light - self.surfaces.len()];
+            let wi = light.sample(u)?.as_vec3();
+            // As it is looked up where a path leaves the scene in this direction.
+            let (radiance, pdf) = light.eval(wi);
+            LightSample { wi, t_max: f32::INFINITY, radiance, pdf: 0.0, skip: NONE }.with_pdf(pmf * pdf)
         }
-        let x = u * n as f32;
-        let i = (x as usize).min(n - 1);
-        let u = x - i as f32;
-        let (k, r) = &self.lights[i];
-        match k {
-            Kind::Tris(t, total) => {
-                let j = t.partition_point(|t| t.3 <= u * total).min(t.len() - 1);
-                let (prim, c, ng, _) = t[j];
-                let s = v.x.sqrt();
-                let q = c[0] * (1.0 - s) + c[1] * (s * (1.0 - v.y)) + c[2] * (s * v.y);
-                let d = q - p;
-                let d2 = d.length_squared();
-                let wi = d / d2.sqrt();
-                let cos = -wi.dot(ng);
-                (cos > 0.0).then(|| LightSample {
-                    wi,
-                    t_max: d2.sqrt() * (1.0 - 1e-5),
-                    radiance: *r,
-                    pdf: d2 / (total * cos) / n as f32,
-                    skip: prim,
-                })
-            }
-            Kind::Sphere(c, rad, prim) => {
-                let w = *c - p.as_dvec3();
-                let d2 = w.length_squared();
-                let s2 = rad * rad / d2;
-                if s2 >= 1.0 {
-                    return None;
-                }
-                let omc = s2 / (1.0 + (1.0 - s2).sqrt());
-                let one_minus = omc * v.x as f64;
-                let sin = (one_minus * (2.0 - one_minus)).sqrt();
-                let (sp, cp) = (std::f64::consts::TAU * v.y as f64).sin_cos();
-                let z = w / d2.sqrt();
-                let (x, y) = z.any_orthonormal_pair();
-                let wi = x * sin * cp + y * sin * sp + z * (1.0 - one_minus);
-                let b = wi.dot(w);
-                let t = b - (rad * rad - (d2 - b * b)).max(0.0).sqrt();
-                Some(LightSample {
-                    wi: wi.as_vec3(),
-                    t_max: (t * (1.0 - 1e-5)) as f32,
-                    radiance: *r,
-                    pdf: (1.0 / (std::f64::consts::TAU * omc)) as f32 / n as f32,
-                    skip: *prim,
-                })
-            }
+    }
+
+    /// What a light emits towards `wo`, unit, from a point on it.
+    #[inline]
+    pub fn radiance_at(&self, light: LightId, at: &LightHit, wo: Vec3, textures: &Textures) -> Rgb {
+        if at.ng.dot(wo) <= 0.0 {
+            return Rgb::ZERO;
+        }
+        textures.color(self.surfaces[light.0 as usize].emission, at.uv)
+    }
+
+    /// What a light emits against the unit direction `wi`, in which it was hit from the point `from`, and the density
+    /// with which [`sample`](Self::sample) draws that direction and light.
+    #[inline]
+    pub fn hit_at(
+        &self,
+        light: LightId,
+        from: Vec3,
+        at: &LightHit,
+        wi: Vec3,
+        textures: &Textures,
+    ) -> (Rgb, f32) {
+        let radiance = self.radiance_at(light, at, -wi, textures);
+        let pdf = self.surfaces[light.0 as usize].form.pdf(from.as_dvec3(), at, wi.as_dvec3());
+        (radiance, finite(self.pmf(light.0) * pdf))
+    }
+
+    /// What each light at infinity sends against the unit direction `wi`, and the density with which
+    /// [`sample`](Self::sample) draws that direction and light.
+    #[inline]
+    pub fn miss(&self, wi: Vec3) -> impl Iterator<Item = (Rgb, f32)> + '_ {
+        let first = self.surfaces.len() as u32;
+        self.infinite.iter().enumerate().map(move |(i, light)| {
+            let (radiance, pdf) = light.eval(wi);
+            (radiance, finite(self.pmf(first + i as u32) * pdf))
+        })
+    }
+
+    /// Probability of choosing a light.
+    #[inline]
+    fn pmf(&self, light: u32) -> f64 {
+        self.choice.as_ref().map_or(0.0, |choice| choice.pmf(light as usize))
+    }
+}
+
+impl LightSample {
+    #[inline]
+    fn with_pdf(self, pdf: f64) -> Option<Self> {
+        let scale = (f64::from(f32::MAX) / pdf).min(1.0) as f32;
+        let pdf = finite(pdf);
+        (pdf > 0.0).then_some(Self { pdf, radiance: self.radiance * scale, ..self })
+    }
+}
+
+/// Rounds a density to `f32`, at most its largest number; NaN becomes 0.
+#[inline]
+fn finite(pdf: f64) -> f32 {
+    pdf.max(0.0).min(f32::MAX.into()) as f32
+}
+
+impl SurfaceLight {
+    /// π · area · mean luminance.
+    fn weigh(&self, textures: &Textures) -> Weigh {
+        let area = match &self.form {
+            Form::Triangles(form) => form.area(),
+            Form::Rectangle(form) => form.area(),
+            Form::Sphere(form) => form.area(),
+            Form::Disk(form) => form.area(),
+        };
+        let (mean, dark) = match self.emission {
+            Color::Constant(color) => (luminance(color.into()).into(), color == [0.0; 3]),
+            Color::Texture(_) => (mean_luminance(self.emission, textures), false),
+        };
+        if dark || area.is_nan() || area <= 0.0 {
+            return Weigh::Never;
+        }
+        Weigh::Power(PI * area * mean)
+    }
+}
+
+/// Over [0, 1]², from a coarse grid: it steers the choice among lights, no more.
+fn mean_luminance(emission: Color, textures: &Textures) -> f64 {
+    const N: u32 = 32;
+    let at = |i: u32| (i as f32 + 0.5) / N as f32;
+    let values = (0..N * N).map(|k| luminance(textures.color(emission, Vec2::new(at(k % N), at(k / N)))));
+    values.filter(|l| l.is_finite()).map(f64::from).sum::<f64>() / f64::from(N * N)
+}
+
+impl Form {
+    fn new(form: LightForm) -> Self {
+        match form {
+            LightForm::Triangles(triangles) => Self::Triangles(Triangles::new(triangles)),
+            LightForm::Rectangle(rectangle) => Self::Rectangle(Rectangle::new(&rectangle)),
+            LightForm::Sphere(sphere) => Self::Sphere(Sphere::new(&sphere)),
+            LightForm::Disk(disk) => Self::Disk(Disk::new(&disk)),
+        }
+    }
+
+    #[inline]
+    fn sample(&self, p: DVec3, choice: f64, u: DVec2) -> Option<Drawn> {
+        match self {
+            Self::Triangles(form) => form.sample(p, choice, u),
+            Self::Rectangle(form) => form.sample(p, u),
+            Self::Sphere(form) => form.sample(p, u),
+            Self::Disk(form) => form.sample(p, u),
+        }
+    }
+
+    #[inline]
+    fn pdf(&self, p: DVec3, at: &LightHit, wi: DVec3) -> f64 {
+        match self {
+            Self::Triangles(form) => form.pdf(p, at.p.as_dvec3(), at.prim),
+            Self::Rectangle(form) => form.pdf(p, at.p.as_dvec3()),
+            Self::Sphere(form) => form.pdf(p, wi),
+            Self::Disk(form) => form.pdf(p, at.p.as_dvec3()),
         }
     }
 }
+
+impl Infinite {
+    fn new(kind: &LightKind) -> Self {
+        match kind {
+            LightKind::Constant { radiance } => Self::Constant(Constant { radiance: (*radiance).into() }),
+            LightKind::EnvMap { image, scale, world_from_light } => {
+                Self::EnvMap(EnvMap::new(image.clone(), *scale, *world_from_light))
+            }
+        }
+    }
+
+    #[inline]
+    fn sample(&self, u: DVec2) -> Option<DVec3> {
+        match self {
+            Self::Constant(light) => Some(light.sample(u)),
+            Self::EnvMap(light) => light.sample(u),
+        }
+    }
+
+    #[inline]
+    fn eval(&self, wi: Vec3) -> (Rgb, f64) {
+        match self {
+            Self::Constant(light) => light.eval(),
+            Self::EnvMap(light) => light.eval(wi),
+        }
+    }
+
+    /// What enters a sphere around the scene: π · radius² · (luminance over all directions).
+    fn weigh(&self, scene_radius: f64) -> Weigh {
+        let (integral, dark) = match self {
+            Self::Constant(light) => light.integral(),
+            Self::EnvMap(light) => light.integral(),
+        };
+        if dark {
+            return Weigh::Never;
+        }
+        Weigh::Power(PI * scene_radius * scene_radius * integral)
+    }
+
+    fn bad_texels(&self) -> u64 {
+        match self {
+            Self::Constant(_) => 0,
+            Self::EnvMap(light) => light.bad_texels(),
+        }
+    }
+}
+
+/// Density per steradian, seen from `p`, of the point `q` that is drawn with density 1 / |`n`| per area from a plane with
+/// the normal `n`.
+#[inline]
+fn area_pdf(p: DVec3, q: DVec3, n: DVec3) -> f64 {
+    let d = q - p;
+    let distance = d.length();
+    distance * distance * distance / d.dot(n).abs()
+}
+
+#[cfg(test)]
+mod tests;
