@@ -1,11 +1,28 @@
 //! A path tracer: a scene becomes a frame.
+//!
+//! [`Prepared::new`] moves a scene into the space of its camera and builds what the rays need; [`render`] makes a
+//! frame of it. Nothing here reads or writes files.
 
-// The order is that of a path: from the camera to the film.
+mod accel;
 mod bsdf;
+mod camera;
 mod color;
+mod effects;
+mod film;
+mod geometry;
 mod light;
+mod material;
+mod path;
+mod prepare;
+mod render;
 mod sampling;
 mod settings;
+#[cfg(test)]
+mod testing;
 mod texture;
 
+pub use effects::{Called, Counters, Effect, effects};
+pub use film::Sample;
+pub use prepare::{PrepareError, Prepared, WorldHit, WorldRay};
+pub use render::{Progress, Recorder, Rendered, TileSamples, render};
 pub use settings::{Sampler, Settings};
