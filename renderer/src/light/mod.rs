@@ -319,16 +319,17 @@ impl Infinite {
         }
     }
 
-    /// What enters a sphere around the scene: π · radius² · (luminance over all directions).
+    /// What enters a sphere around the scene: π · radius² · (luminance over all directions). A constant one is never
+    /// chosen: nothing about it is better known than a BSDF's own density, so that a light sample would add noise (a
+    /// convex Lambertian body under it has none without) and cost a ray (compare Karlík et al. 2019).
     fn weigh(&self, scene_radius: f64) -> Weigh {
-        let (integral, dark) = match self {
-            Self::Constant(light) => light.integral(),
-            Self::EnvMap(light) => light.integral(),
-        };
-        if dark {
-            return Weigh::Never;
+        match self {
+            Self::Constant(_) => Weigh::Never,
+            Self::EnvMap(light) => match light.integral() {
+                (_, true) => Weigh::Never,
+                (integral, false) => Weigh::Power(PI * scene_radius * scene_radius * integral),
+            },
         }
-        Weigh::Power(PI * scene_radius * scene_radius * integral)
     }
 
     fn bad_texels(&self) -> u64 {
