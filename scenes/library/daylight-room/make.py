@@ -160,7 +160,7 @@ def picture(x, y, w, h, bar, depth):
 mesh("curtains", [curtain(z, w, s) for z, w, s in ((-2.13, 0.36, 0), (-0.78, 0.30, 2), (-0.52, 0.30, 3), (0.82, 0.30, 5), (1.08, 0.30, 1), (2.42, 0.36, 4))])
 mesh("curtain-rod", [ws.tube([(-X + 0.115, 2.575, -2.36), (-X + 0.115, 2.575, 0), (-X + 0.115, 2.575, 2.8)], 0.012, n=16, steps=1)])
 mesh("rug", ws.grid(rug, 44, 36), uv=True)
-texture("kilim", kilim(492, 696), 40)
+texture("kilim", kilim(492, 696), 24)
 texture("landscape", landscape(288, 416), 48)
 mesh("picture-frame", picture(-0.30, 1.62, 1.04, 0.72, 0.055, 0.045))
 mesh("canvas", [ws.quad((-0.82, 1.26, BACK + 0.02), (0.22, 1.26, BACK + 0.02), (0.22, 1.98, BACK + 0.02), (-0.82, 1.98, BACK + 0.02))], uv=True)
@@ -188,7 +188,7 @@ def parquet(size, unit, n, seed):
     return c.reshape(size, size, 3)
 
 
-texture("parquet", parquet(1008, 0.09, 6, 3), 40)
+texture("parquet", parquet(1008, 0.09, 6, 3), 24)
 texture("walnut", ws.wood(384, 768, 17, [(52, 30, 18), (92, 56, 34), (122, 78, 48), (150, 102, 66)], rings=6), 40)
 texture("oak", ws.wood(384, 768, 23, [(128, 88, 50), (170, 126, 78), (194, 152, 102), (212, 176, 128)], rings=7), 40)
 
@@ -293,7 +293,7 @@ for at, turn, k, size in (((-0.80, 0.8085, -2.16), 80, 5, (0.032, 0.25, 0.18)), 
         target.append(ws.place(ws.place(source, (size[1] / 2, 0, 0), roll=90), at, turn=turn - 90))
 mesh("books", covers, uv=True)
 mesh("pages", pages)
-texture("spines", spines(512), 32)
+texture("spines", spines(384), 24)
 
 
 # ---------------------------------------------------------------- furniture
@@ -347,13 +347,13 @@ def chair(at, turn):
         def slat(u, v, y=y, z=z):
             a = v * ws.TAU
             return 0.345 * (u - 0.5), y + 0.030 * np.sin(a), z - 0.030 * (1 - (2 * u - 1) ** 2) - 0.006 * np.cos(a) - 0.008 * np.sin(a)
-        out.append(ws.grid(slat, 10, 16, flip=True))
+        out.append(ws.grid(slat, 6, 10, flip=True))
     return [ws.place(m, at, turn=turn) for m in out]
 
 
 def armchair(at, turn):
     """Looks towards +z. Returns (upholstery, cushion, legs)."""
-    soft = lambda at, size, bevel, tilt=0.0, steps=4: ws.place(puff(ws.box(size, bevel, steps), size), at, tilt=tilt)
+    soft = lambda at, size, bevel, tilt=0.0, steps=3: ws.place(puff(ws.box(size, bevel, steps), size), at, tilt=tilt)
 
     def puff(m, size):
         """Cushions swell in the middle of their faces."""

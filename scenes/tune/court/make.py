@@ -181,7 +181,7 @@ def stucco(h, w):
     return ws.ramp(0.5 + 0.18 * n, [(164, 112, 62), (204, 152, 92), (220, 176, 118), (230, 198, 150)])
 
 
-ws.save_png(HERE / "paving.png", paving(512), 32)
+ws.save_png(HERE / "paving.png", paving(512), 20)
 ws.save_png(HERE / "stucco.png", stucco(384, 384), 32)
 ws.save_png(HERE / "door.png", ws.wood(128, 512, 31, [(34, 48, 44), (58, 82, 74), (76, 104, 92), (96, 122, 106)], rings=3), 24)
 c = ws.sky(192, 384, (0.62, 0.70, 0.42), (9000, 7900, 6300), 0.9, (0.20, 0.42, 0.95), (0.75, 0.95, 1.25), (1.2, 1.05, 0.8), (0.24, 0.20, 0.15))
