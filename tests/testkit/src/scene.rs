@@ -11,8 +11,17 @@ pub fn camera(origin: DVec3, target: DVec3, width: u32, height: u32) -> Camera {
     let x = z.any_orthonormal_vector();
     Camera {
         name: "camera".into(),
-        world_from_camera: DMat4::from_cols(x.extend(0.0), z.cross(x).extend(0.0), z.extend(0.0), origin.extend(1.0)),
-        projection: Projection::Perspective { fov_deg: 40.0, fov_axis: FovAxis::X, principal_point_offset: [0.0; 2] },
+        world_from_camera: DMat4::from_cols(
+            x.extend(0.0),
+            z.cross(x).extend(0.0),
+            z.extend(0.0),
+            origin.extend(1.0),
+        ),
+        projection: Projection::Perspective {
+            fov_deg: 40.0,
+            fov_axis: FovAxis::X,
+            principal_point_offset: [0.0; 2],
+        },
         near_clip: None,
         far_clip: None,
         film: Film { width, height, crop: None, filter: PixelFilter::Box },
