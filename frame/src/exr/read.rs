@@ -66,6 +66,10 @@ pub(super) enum Problem {
 impl From<ExrError> for Problem {
     fn from(error: ExrError) -> Self {
         match error {
+            // Offsets beyond all that can be asked of a file.
+            ExrError::Io(error) if error.kind() == io::ErrorKind::InvalidInput => {
+                Problem::Malformed("damaged EXR: an offset points outside the file".to_owned())
+            }
             ExrError::Io(error) => Problem::Io(error),
             ExrError::NotSupported(what) => Problem::Malformed(format!("unsupported EXR: {what}")),
             ExrError::Invalid(what) if what == "file identifier missing" => {

@@ -194,6 +194,24 @@ fn other_types_tiles_orders_and_offset_windows_are_read() {
     }
 }
 
+#[test]
+fn pictures_of_other_programs_are_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/scenes/mitsuba");
+    let pictures = [("cornell-box/TungstenRender.exr", 1024, 1024), ("hetvol/hetvol.exr", 768, 576)];
+    for (name, width, height) in pictures {
+        let path = folder.join(name);
+        if !path.exists() {
+            println!("skipped: no {}", path.display());
+            continue;
+        }
+        let frame = read_exr(&path).expect("reads");
+        assert_eq!((frame.width(), frame.height()), (width, height));
+        let rgb = frame.rgb().expect("has colour");
+        assert!(rgb.iter().all(|plane| plane.iter().all(|v| v.is_finite() && *v >= 0.0)));
+        assert!(rgb.iter().all(|plane| plane.iter().any(|v| *v > 0.1)));
+    }
+}
+
 fn grey(name: &str, n: usize, value: f32) -> AnyChannel<FlatSamples> {
     AnyChannel::new(name, FlatSamples::F32(vec![value; n]))
 }

@@ -20,6 +20,9 @@ use crate::{Frame, FrameError, write_whole};
 /// Writes a frame as one flat part: a 32-bit float channel for each of its channels, under the same
 /// name, ZIP compressed in blocks of 16 rows; its metadata are text attributes.
 ///
+/// All cores compress, about 35 MB a second each; that is nearly all of the time it takes. (Lower effort is
+/// up to six times as fast on noise, but twice as large where the picture is clean.)
+///
 /// The same frame gives the same bytes, whatever the number of threads. NaN and infinities are kept to
 /// the bit. The file appears whole or not at all ([`write_whole`]).
 ///
