@@ -1,4 +1,4 @@
-//! Light from infinity: the same from everywhere, or from a lat-long picture.
+//! Light from infinity by a lat-long picture.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -9,30 +9,6 @@ use limpid_scenes::Image;
 use crate::color::{Rgb, luminance};
 use crate::sampling::Distribution2d;
 use crate::texture::texel;
-
-/// The same radiance from everywhere.
-pub struct Constant {
-    pub radiance: Rgb,
-}
-
-impl Constant {
-    pub fn sample(&self, u: DVec2) -> DVec3 {
-        let z = 1.0 - 2.0 * u.x;
-        let r = (1.0 - z * z).sqrt();
-        let phi = TAU * u.y;
-        DVec3::new(r * phi.cos(), r * phi.sin(), z)
-    }
-
-    /// Radiance and density per steradian.
-    pub fn eval(&self) -> (Rgb, f64) {
-        (self.radiance, 1.0 / (2.0 * TAU))
-    }
-
-    /// Luminance over the sphere, and whether there is no light at all.
-    pub fn integral(&self) -> (f64, bool) {
-        (2.0 * TAU * f64::from(luminance(self.radiance)), self.radiance == Rgb::ZERO)
-    }
-}
 
 /// A lat-long picture at infinity: row j lies at the polar angle θ = πj / (height − 1) from +y, column i has its centre
 /// at the longitude φ = 2π (½ − (i + ½) / width) from +z towards +x; between them it is bilinear, as in Mitsuba 3.

@@ -24,7 +24,7 @@ use crate::sampling::Distribution1d;
 use crate::texture::Textures;
 use choice::{Weigh, choose_from};
 use disk::Disk;
-use environment::{Constant, EnvMap};
+use environment::EnvMap;
 use rectangle::Rectangle;
 pub use shape::{LightAnalytic, LightForm, LightRectangle, LightShape, LightTriangle};
 use sphere::Sphere;
@@ -94,7 +94,8 @@ enum Form {
 }
 
 enum Infinite {
-    Constant(Constant),
+    /// The same radiance from everywhere.
+    Constant(Rgb),
     EnvMap(EnvMap),
 }
 
@@ -296,7 +297,7 @@ impl Form {
 impl Infinite {
     fn new(kind: &LightKind) -> Self {
         match kind {
-            LightKind::Constant { radiance } => Self::Constant(Constant { radiance: (*radiance).into() }),
+            LightKind::Constant { radiance } => Self::Constant((*radiance).into()),
             LightKind::EnvMap { image, scale, world_from_light } => {
                 Self::EnvMap(EnvMap::new(image.clone(), *scale, *world_from_light))
             }
@@ -306,7 +307,7 @@ impl Infinite {
     #[inline]
     fn sample(&self, u: DVec2) -> Option<DVec3> {
         match self {
-            Self::Constant(light) => Some(light.sample(u)),
+            Self::Constant(_) => None, // it is never chosen
             Self::EnvMap(light) => light.sample(u),
         }
     }
@@ -314,7 +315,7 @@ impl Infinite {
     #[inline]
     fn eval(&self, wi: Vec3) -> (Rgb, f64) {
         match self {
-            Self::Constant(light) => light.eval(),
+            Self::Constant(radiance) => (*radiance, 0.0),
             Self::EnvMap(light) => light.eval(wi),
         }
     }

@@ -1,0 +1,170 @@
+//! What is drawn follows the density that is given for it.
+
+use super::*;
+
+/// Sum of the densities and radiance of what is seen in a direction.
+fn seen(lights: &Lights, form: Option<&LightForm>, p: Vec3, wi: Vec3) -> f64 {
+    let textures = NO_TEXTURES();
+    let Some(form) = form else { return lights.miss(wi).map(|(_, pdf)| f64::from(pdf)).sum() };
+    let densities = intersect(form, p, wi).into_iter().map(|at| {
+        let (radiance, pdf) = lights.hit_at(LightId(0), p, &at, wi, &textures);
+        if radiance == Rgb::ZERO { 0.0 } else { f64::from(pdf) }
+    });
+    densities.sum()
+}
+
+/// Directions on a grid of cells of equal solid angle over a cone.
+struct Cone {
+    frame: [DVec3; 3],
+    one_minus_cos: f64,
+}
+
+const CELLS: usize = 16;
+const FINE: usize = 24;
+const SAMPLES: u32 = 100_000;
+
+impl Cone {
+    /// Around all directions that are drawn from `p`.
+    fn around(lights: &Lights, p: Vec3) -> Self {
+        let textures = NO_TEXTURES();
+        let samples = (0..2000).filter_map(|i| {
+            let (choice, u) = numbers(Sampler::Independent, i + 500_000);
+            lights.sample(p, choice, u, &textures).map(|s| s.wi.as_dvec3())
+        });
+        let directions: Vec<_> = samples.collect();
+        let z = directions.iter().sum::<DVec3>().normalize_or(DVec3::Z);
+        let widest = directions.iter().map(|d| 1.0 - d.dot(z)).fold(0.0, f64::max);
+        let (x, y) = z.any_orthonormal_pair();
+        Self { frame: [x, y, z], one_minus_cos: (1.5 * widest).min(2.0) }
+    }
+
+    fn direction(&self, u: f64, v: f64) -> Vec3 {
+        let z = self.one_minus_cos * u;
+        let (r, phi) = ((z * (2.0 - z)).sqrt(), 2.0 * PI * v);
+        let [x, y, axis] = self.frame;
+        (r * phi.cos() * x + r * phi.sin() * y + (1.0 - z) * axis).as_vec3()
+    }
+
+    fn cell(&self, d: DVec3) -> usize {
+        let [x, y, z] = self.frame.map(|axis| axis.dot(d));
+        // From the sine for narrow cones.
+        let one_minus_cos = if z > 0.0 { (x * x + y * y) / (1.0 + z) } else { 1.0 - z };
+        let u = (one_minus_cos / self.one_minus_cos * CELLS as f64) as usize;
+        let v = ((y.atan2(x) / (2.0 * PI)).rem_euclid(1.0) * CELLS as f64) as usize;
+        u.min(CELLS - 1) * CELLS + v.min(CELLS - 1)
+    }
+
+    /// Probability of each cell by quadrature of the density.
+    fn expected(&self, pdf: impl Fn(Vec3) -> f64) -> Vec<f64> {
+        let at = |cell: usize, k: usize| (cell as f64 + (k as f64 + 0.5) / FINE as f64) / CELLS as f64;
+        let solid = 2.0 * PI * self.one_minus_cos / (CELLS * CELLS * FINE * FINE) as f64;
+        (0..CELLS * CELLS)
+            .map(|cell| {
+                let points = (0..FINE * FINE)
+                    .map(|k| self.direction(at(cell / CELLS, k / FINE), at(cell % CELLS, k % FINE)));
+                points.map(&pdf).sum::<f64>() * solid
+            })
+            .collect()
+    }
+}
+
+/// χ² of the samples against the density; what is drawn in vain is the rest of 1. The bound is 5 standard
+/// deviations of a χ² with this many degrees of freedom: a right density would fail for one seed in about 1e5.
+fn assert_chi2(name: &str, lights: &Lights, form: Option<&LightForm>, p: Vec3) {
+    let cone = Cone::around(lights, p);
+    let expected = cone.expected(|wi| seen(lights, form, p, wi));
+    let mut counts = vec![0.0; expected.len() + 1];
+    let textures = NO_TEXTURES();
+    for i in 0..SAMPLES {
+        let (choice, u) = numbers(Sampler::Independent, i);
+        let drawn = lights.sample(p, choice, u, &textures);
+        counts[drawn.map_or(expected.len(), |s| cone.cell(s.wi.as_dvec3()))] += 1.0;
+    }
+    let vain = 1.0 - expected.iter().sum::<f64>();
+    assert!(vain > -0.005, "{name} from {p}: the density integrates to {}", 1.0 - vain);
+    let share = counts[expected.len()] / f64::from(SAMPLES);
+    assert!((vain - share).abs() < 0.01, "{name} from {p}: {share} are drawn in vain, not {vain}");
+
+    // The quadrature is off by one or two per cent of a full cell where an edge runs through it.
+    let slack = 0.015 * f64::from(SAMPLES) * expected.iter().copied().fold(0.0, f64::max);
+    let term = |count: f64, e: f64| (count - e).powi(2) / (e + slack * slack);
+    let (mut chi2, mut cells, mut rest) = (0.0, 0.0, [0.0; 2]);
+    for (count, e) in counts.into_iter().zip(expected.into_iter().map(|e| e * f64::from(SAMPLES))) {
+        if e < 50.0 {
+            rest = [rest[0] + count, rest[1] + e];
+        } else {
+            (chi2, cells) = (chi2 + term(count, e), cells + 1.0);
+        }
+    }
+    if rest[1] > 50.0 {
+        (chi2, cells) = (chi2 + term(rest[0], rest[1]), cells + 1.0);
+    }
+    let dof: f64 = cells - 1.0;
+    assert!(dof > 5.0, "{name} from {p}: nothing is drawn");
+    assert!(chi2 < dof + 5.0 * (2.0 * dof).sqrt() + 10.0, "{name} from {p}: χ² = {chi2} of {dof}");
+}
+
+#[test]
+fn samples_of_surfaces_follow_their_density() {
+    for (name, form, points) in cases() {
+        let lights = only(form.clone());
+        for p in points {
+            assert_chi2(name, &lights, Some(&form), p);
+        }
+    }
+}
+
+#[test]
+fn samples_of_infinite_lights_follow_their_density() {
+    for (width, height) in [(8, 5), (5, 1), (1, 7)] {
+        let values = (0..width * height * 3).map(|i| ((i * 7919) % 13) as f32).collect();
+        let image = limpid_scenes::Image { width, height, texels: limpid_scenes::Texels::Linear32(values) };
+        // Scaled unevenly, mirrored and turned.
+        let linear = DMat3::from_axis_angle(DVec3::X, 1.0) * DMat3::from_diagonal(DVec3::new(1.0, -2.0, 1.5));
+        let kind = LightKind::EnvMap {
+            image: std::sync::Arc::new(image),
+            scale: 2.0,
+            world_from_light: glam::DMat4::from_mat3(linear),
+        };
+        assert_chi2(&format!("{width}x{height} map"), &infinite(kind), None, Vec3::ZERO);
+    }
+}
+
+#[test]
+fn samples_and_hits_agree() {
+    let textures = NO_TEXTURES();
+    for (name, form, points) in cases() {
+        let lights = only(form.clone());
+        for p in points {
+            let (mut drawn, mut found) = (0, 0);
+            for i in 0..2000 {
+                let (choice, u) = numbers(Sampler::Sobol, i);
+                let Some(s) = lights.sample(p, choice, u, &textures) else { continue };
+                drawn += 1;
+                assert!((s.wi.length() - 1.0).abs() < 1e-6, "{name}");
+                let hits = intersect(&form, p, s.wi);
+                // None at the rim, by rounding.
+                let nearest = hits
+                    .iter()
+                    .filter(|at| at.ng.dot(s.wi) < 0.0)
+                    .min_by(|a, b| a.p.distance_squared(p).total_cmp(&b.p.distance_squared(p)));
+                let Some(at) = nearest else { continue };
+                let (radiance, pdf) = lights.hit_at(LightId(0), p, at, s.wi, &textures);
+                // Grazing, the rounding of the direction moves the hit.
+                let slack = 3e-5 + 2e-6 / at.ng.dot(s.wi).abs();
+                if (pdf / s.pdf - 1.0).abs() > slack
+                    || (at.p.distance(p) / s.t_max - 1.0).abs() > 1e-5 + slack
+                {
+                    assert!(at.prim != s.skip, "{name} from {p}: pdf {pdf}, not {}; {s:?}", s.pdf);
+                    continue;
+                }
+                assert_eq!(radiance, s.radiance, "{name}");
+                found += 1;
+            }
+            assert!(
+                drawn > 100 && f64::from(found) > 0.98 * f64::from(drawn),
+                "{name} from {p}: {found} of {drawn}"
+            );
+        }
+    }
+}
