@@ -1,0 +1,155 @@
+//! The table of methods and of their parameters.
+
+use limpid_frame::LayerRequest;
+
+use crate::nearest::nearest_first;
+use crate::{DenoiseError, Denoiser, filter};
+
+/// What sort of method it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A formula with a few parameters; nothing was trained.
+    Filter,
+    /// A network whose weights were trained.
+    Learned,
+    /// A program of others, called for comparison.
+    Peer,
+}
+
+impl Kind {
+    /// In lower case, as the program prints it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Filter => "filter",
+            Kind::Learned => "learned",
+            Kind::Peer => "peer",
+        }
+    }
+}
+
+/// A number that changes how a method works, set as `--set name=value`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// As it is written.
+    pub name: &'static str,
+    /// One line: what it does, with its unit.
+    pub doc: &'static str,
+    /// What it is where nobody sets it.
+    pub default: f64,
+    /// The least value.
+    pub min: f64,
+    /// The greatest value.
+    pub max: f64,
+    /// Whether it has to be a whole number.
+    pub integer: bool,
+}
+
+/// A denoising method: a row of [`methods`].
+#[derive(Debug)]
+pub struct Method {
+    /// As `--denoise` and `--method` name it.
+    pub name: &'static str,
+    /// What sort of method it is.
+    pub kind: Kind,
+    /// The paper it comes from.
+    pub source: &'static str,
+    /// What it does, in one line.
+    pub summary: &'static str,
+    /// What can be set.
+    pub parameters: &'static [Parameter],
+    pub(crate) build: fn(&Values) -> Box<dyn Denoiser>,
+}
+
+/// Every denoiser that there is.
+pub fn methods() -> &'static [Method] {
+    filter::METHODS
+}
+
+/// The method of this name.
+///
+/// # Errors
+///
+/// [`DenoiseError::UnknownMethod`] lists the known ones, nearest first.
+pub fn by_name(name: &str) -> Result<&'static Method, DenoiseError> {
+    methods().iter().find(|method| method.name == name).ok_or_else(|| DenoiseError::UnknownMethod {
+        name: name.to_owned(),
+        known: nearest_first(name, methods().iter().map(|method| method.name)),
+    })
+}
+
+impl Method {
+    /// The denoiser with its default parameters.
+    pub fn denoiser(&self) -> Box<dyn Denoiser> {
+        (self.build)(&Values::defaults(self.parameters))
+    }
+
+    /// The denoiser with some parameters set; each item is `name=value`, of two of a name the last holds.
+    ///
+    /// # Errors
+    ///
+    /// [`DenoiseError::Assignment`], [`DenoiseError::UnknownParameter`] and [`DenoiseError::OutOfRange`].
+    pub fn configure(&self, assignments: &[String]) -> Result<Box<dyn Denoiser>, DenoiseError> {
+        let mut values = Values::defaults(self.parameters);
+        for text in assignments {
+            let (key, value) = self.parse(text)?;
+            values.set(key, value);
+        }
+        Ok((self.build)(&values))
+    }
+
+    /// The layers that it reads, the optional ones too.
+    pub fn needs(&self) -> LayerRequest {
+        self.denoiser().needs()
+    }
+
+    fn parse(&self, text: &str) -> Result<(&'static str, f64), DenoiseError> {
+        let assignment = || DenoiseError::Assignment {
+            text: text.to_owned(),
+            example: self
+                .parameters
+                .first()
+                .map_or("key=1".to_owned(), |p| format!("{}={}", p.name, p.default)),
+        };
+        let (key, value) = text.split_once('=').ok_or_else(assignment)?;
+        let (key, value) = (key.trim(), value.trim().parse::<f64>().map_err(|_| assignment())?);
+        let Some(parameter) = self.parameters.iter().find(|parameter| parameter.name == key) else {
+            return Err(DenoiseError::UnknownParameter {
+                method: self.name,
+                key: key.to_owned(),
+                known: nearest_first(key, self.parameters.iter().map(|parameter| parameter.name)),
+            });
+        };
+        // A NaN fails this test too, which is why it is not written the other way round.
+        let Parameter { name, min, max, integer, .. } = *parameter;
+        if !(min <= value && value <= max) || (integer && value.fract() != 0.0) {
+            return Err(DenoiseError::OutOfRange { method: self.name, key: name, value, min, max, integer });
+        }
+        Ok((name, value))
+    }
+}
+
+/// The values of a method's parameters.
+pub(crate) struct Values(Vec<(&'static str, f64)>);
+
+impl Values {
+    pub(crate) fn defaults(parameters: &[Parameter]) -> Self {
+        Self(parameters.iter().map(|parameter| (parameter.name, parameter.default)).collect())
+    }
+
+    fn set(&mut self, name: &str, value: f64) {
+        for entry in self.0.iter_mut().filter(|entry| entry.0 == name) {
+            entry.1 = value;
+        }
+    }
+
+    /// The value of a parameter that the method's table lists.
+    pub(crate) fn get(&self, name: &str) -> f32 {
+        let entry = self.0.iter().find(|entry| entry.0 == name);
+        entry.expect("a method asks only for parameters that its table lists").1 as f32
+    }
+
+    /// The same of a whole number that is not negative.
+    pub(crate) fn count(&self, name: &str) -> usize {
+        self.get(name) as usize
+    }
+}

@@ -1,0 +1,175 @@
+//! A frame apart into what is filtered by itself, and together again.
+//!
+//! Diffuse radiance is divided by the albedo before and multiplied after, so that no texture is blurred;
+//! specular radiance goes by itself; emission seen directly has no noise and passes through. The sum is the
+//! picture (Zimmer et al. 2015; Bako et al. 2017).
+//!
+//! The albedo that is divided out and multiplied in again is the *prefiltered* one, the same both times.
+//! With the noisy one its own noise (defocus, edges, texture under a pixel) comes back with the last step,
+//! untouched by any filter: over six frames of 16 and 64 samples that cost a quarter of the error.
+
+use limpid_frame::{Frame, FrameError, Layer, Statistic};
+
+use crate::plane::{Plane, Size, map2};
+use crate::wrap::features::prefiltered;
+use crate::wrap::noise;
+use crate::wrap::repair::{exposure_exponent, fill_non_finite, scale, scale_variance};
+
+/// Added to the albedo before it divides (Bako et al. 2017): what is black stays finite.
+const ALBEDO_FLOOR: f32 = 0.00316;
+
+/// Radiance that is filtered by itself, divided by its albedo and brought to an ordinary exposure.
+pub(crate) struct Component {
+    pub layer: Layer,
+    /// The two halves of the samples, or the mean alone where there are none. Three planes each.
+    pub buffers: Vec<Vec<Plane>>,
+    /// Variance of one of the buffers.
+    pub variance: Vec<Plane>,
+    /// What the answer is multiplied by.
+    albedo: Option<Vec<Plane>>,
+    /// The buffers were multiplied by 2^−e.
+    exponent: i32,
+}
+
+/// A frame, apart.
+pub(crate) struct Components {
+    pub filtered: Vec<Component>,
+    /// Emission: what is added to the answer as it is.
+    passed: Option<Vec<Plane>>,
+    /// Pixels that were not finite in a component and were filled from their neighbours.
+    pub repaired: usize,
+    /// Why the picture was filtered as a whole, if it was.
+    pub whole: Option<&'static str>,
+}
+
+/// Takes a frame apart: into diffuse, specular and emission if all are there and add up to the beauty,
+/// otherwise into one component, the beauty, divided by `albedo` where there is one.
+///
+/// # Errors
+///
+/// [`FrameError::MissingChannel`] if there is no beauty.
+pub(crate) fn split(frame: &Frame) -> Result<Components, FrameError> {
+    let beauty = frame.rgb()?;
+    let size = Size { width: frame.width(), height: frame.height() };
+    let parts: Option<Vec<_>> = [Layer::Diffuse, Layer::Specular, Layer::Emission, Layer::DiffuseAlbedo]
+        .into_iter()
+        .map(|layer| frame.layer(layer, Statistic::Mean))
+        .collect();
+    let mut repaired = 0;
+    let whole = match parts {
+        None => Some("no components"),
+        Some(parts) if !add_up(&beauty, &parts[..3]) => Some("its components do not add up"),
+        Some(_) => None,
+    };
+    if whole.is_some() {
+        let filtered = component(frame, size, Layer::Beauty, Layer::Albedo, &mut repaired)?;
+        return Ok(Components { filtered: vec![filtered], passed: None, repaired, whole });
+    }
+    let mut filtered = vec![component(frame, size, Layer::Diffuse, Layer::DiffuseAlbedo, &mut repaired)?];
+    let specular = frame.layer(Layer::Specular, Statistic::Mean).unwrap_or_default();
+    if specular.iter().any(|plane| plane.iter().any(|v| *v != 0.0)) {
+        filtered.push(component(frame, size, Layer::Specular, Layer::Specular, &mut repaired)?);
+    }
+    let mut passed = copy(frame, Layer::Emission, Statistic::Mean).unwrap_or_default();
+    repaired += fill_non_finite(size, &mut passed.iter_mut().collect::<Vec<_>>());
+    Ok(Components { filtered, passed: Some(passed), repaired, whole })
+}
+
+/// Puts the filtered components (their order, three planes each) together, into `frame`: its components
+/// and, as `R G B`, their sum.
+pub(crate) fn recombine(frame: &mut Frame, components: &Components, filtered: Vec<Vec<Plane>>) {
+    let mut sum = components.passed.clone().unwrap_or_else(|| vec![vec![0.0; frame.len()]; 3]);
+    for (component, mut planes) in components.filtered.iter().zip(filtered) {
+        for (c, plane) in planes.iter_mut().enumerate() {
+            scale(plane, component.exponent);
+            if let Some(albedo) = &component.albedo {
+                plane.iter_mut().zip(&albedo[c]).for_each(|(value, albedo)| *value *= albedo);
+            }
+            sum[c].iter_mut().zip(plane.iter()).for_each(|(sum, value)| *sum += value);
+        }
+        if component.layer != Layer::Beauty {
+            frame.insert_layer(component.layer, Statistic::Mean, planes);
+        }
+    }
+    // Sums of huge values may still leave the range of f32.
+    sum.iter_mut().flatten().for_each(|value| *value = value.clamp(f32::MIN, f32::MAX));
+    frame.insert_layer(Layer::Beauty, Statistic::Mean, sum);
+}
+
+/// Whether parts add up to the beauty, over the whole picture and up to rounding. A picture with a part
+/// that is not among them (light scattered in a medium) must not lose it.
+fn add_up(beauty: &[&[f32]; 3], parts: &[Vec<&[f32]>]) -> bool {
+    let (mut missing, mut total) = (0.0, 0.0);
+    for (c, beauty) in beauty.iter().enumerate() {
+        for (p, whole) in beauty.iter().enumerate() {
+            let sum: f64 = parts.iter().map(|part| f64::from(part[c][p])).sum();
+            if sum.is_finite() && whole.is_finite() {
+                missing += (sum - f64::from(*whole)).abs();
+                total += f64::from(*whole).abs();
+            }
+        }
+    }
+    missing <= 1e-3 * total
+}
+
+fn copy(frame: &Frame, layer: Layer, statistic: Statistic) -> Option<Vec<Plane>> {
+    Some(frame.layer(layer, statistic)?.into_iter().map(<[f32]>::to_vec).collect())
+}
+
+/// Reads one component, repairs it, divides it by its albedo, scales it, and finds how noisy it is.
+/// `albedo` is `layer` itself where there is nothing to divide by.
+fn component(
+    frame: &Frame,
+    size: Size,
+    layer: Layer,
+    albedo: Layer,
+    repaired: &mut usize,
+) -> Result<Component, FrameError> {
+    let mean = copy(frame, layer, Statistic::Mean)
+        .ok_or_else(|| FrameError::MissingChannel { channel: layer.name().to_owned() })?;
+    let halves = copy(frame, layer, Statistic::A).zip(copy(frame, layer, Statistic::B));
+    let mut buffers = halves.map_or_else(|| vec![mean], |(a, b)| vec![a, b]);
+    *repaired += fill_non_finite(size, &mut buffers.iter_mut().flatten().collect::<Vec<_>>());
+    let mut variance = copy(frame, layer, Statistic::Variance);
+
+    let albedo = if albedo == layer { None } else { prefiltered(frame, albedo) };
+    let albedo: Option<Vec<Plane>> = albedo.map(|albedo| {
+        let floored = |plane: &Plane| plane.iter().map(|a| a.max(0.0) + ALBEDO_FLOOR).collect();
+        albedo.mean.iter().map(floored).collect()
+    });
+    let exponent = exposure_exponent(buffers.iter().flatten().cloned().collect::<Vec<_>>().as_slice());
+    for planes in &mut buffers {
+        for (c, plane) in planes.iter_mut().enumerate() {
+            scale(plane, -exponent);
+            if let Some(albedo) = &albedo {
+                plane.iter_mut().zip(&albedo[c]).for_each(|(value, albedo)| *value /= albedo);
+            }
+        }
+    }
+    if let Some(planes) = &mut variance {
+        for (c, plane) in planes.iter_mut().enumerate() {
+            if plane.iter().any(|v| *v < 0.0) {
+                continue; // unknown, and it stays so
+            }
+            scale_variance(plane, -exponent);
+            if let Some(albedo) = &albedo {
+                plane.iter_mut().zip(&albedo[c]).for_each(|(value, albedo)| *value /= albedo * albedo);
+            }
+        }
+        fill_non_finite(size, &mut planes.iter_mut().collect::<Vec<_>>());
+    }
+    let variance = (0..3)
+        .map(|c| {
+            let variance = variance.as_ref().map(|planes| &planes[c]);
+            match buffers.as_slice() {
+                [a, b] => {
+                    let mean = map2(&a[c], &b[c], |a, b| 0.5 * (a + b));
+                    let of_mean = noise::variance(size, &mean, variance, Some([&a[c], &b[c]]));
+                    of_mean.into_iter().map(|v| 2.0 * v).collect() // a half has half the samples
+                }
+                buffers => noise::variance(size, &buffers[0][c], variance, None),
+            }
+        })
+        .collect();
+    Ok(Component { layer, buffers, variance, albedo, exponent })
+}
