@@ -58,7 +58,8 @@ impl Materials {
                     (Side { kind: material.kind.clone(), coating }, None)
                 }
             };
-            let anisotropic = [Some(&front), back.as_ref()].into_iter().flatten().any(|s| is_anisotropic(&s.kind));
+            let anisotropic =
+                [Some(&front), back.as_ref()].into_iter().flatten().any(|s| is_anisotropic(&s.kind));
             materials.push(Prepared { front, back, anisotropic });
         }
         Ok(Self { materials })
@@ -73,7 +74,13 @@ impl Materials {
     /// The BSDF at a hit, and whether it refers to the other side: the caller then turns the normal over.
     /// `behind`: the surface is seen from the side away from its shading normal.
     #[inline]
-    pub fn bsdf(&self, material: MaterialId, uv: Vec2, textures: &Textures, behind: bool) -> (Bsdf<'_>, bool) {
+    pub fn bsdf(
+        &self,
+        material: MaterialId,
+        uv: Vec2,
+        textures: &Textures,
+        behind: bool,
+    ) -> (Bsdf<'_>, bool) {
         let material = &self.materials[material.0 as usize];
         match &material.back {
             Some(back) if behind => (back.bsdf(uv, textures), true),

@@ -126,9 +126,9 @@ impl Tally {
     fn reject(&self, count: u64, [x, y]: [u32; 2]) {
         self.rejected.fetch_add(count, Relaxed);
         let key = (u64::from(y) << 32 | u64::from(x)) + 1;
-        let _ = self.first_rejected.fetch_update(Relaxed, Relaxed, |first| {
-            (first == 0 || key < first).then_some(key)
-        });
+        let _ = self
+            .first_rejected
+            .fetch_update(Relaxed, Relaxed, |first| (first == 0 || key < first).then_some(key));
     }
 
     fn totals(&self) -> (Counters, u64, Option<[u32; 2]>) {

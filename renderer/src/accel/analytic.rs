@@ -35,7 +35,10 @@ impl Analytic {
         let z = if self.kind == AnalyticKind::Disk { DVec3::ZERO } else { z };
         let half = (x * x + y * y + z * z).map(f64::sqrt);
         let (min, max) = (m.translation - half, m.translation + half);
-        Bounds { min: Vec3::from_array(min.to_array().map(round_down)), max: Vec3::from_array(max.to_array().map(round_up)) }
+        Bounds {
+            min: Vec3::from_array(min.to_array().map(round_down)),
+            max: Vec3::from_array(max.to_array().map(round_up)),
+        }
     }
 
     /// The nearest distance in (0, ∞).
@@ -70,11 +73,7 @@ fn intersect_unit_sphere(o: DVec3, d: DVec3) -> Option<f64> {
     let q = b + (a * discriminant).sqrt().copysign(b);
     let (t0, t1) = if b < 0.0 { (q / a, c / q) } else { (c / q, q / a) };
     // From inside, c < 0 and the roots have different signs; the order above holds in either case.
-    if t0 > 0.0 {
-        Some(t0)
-    } else {
-        (t1 > 0.0).then_some(t1)
-    }
+    if t0 > 0.0 { Some(t0) } else { (t1 > 0.0).then_some(t1) }
 }
 
 fn round_down(x: f64) -> f32 {

@@ -36,7 +36,10 @@ fn rays(count: usize) -> Vec<Ray> {
         for axis in 0..i % 3 {
             d[(i / 3 + axis) % 3] = if i % 2 == 0 { 0.0 } else { -0.0 };
         }
-        rays.push(Ray { t_max: if i % 5 == 0 { 0.7 } else { f32::INFINITY }, ..Ray::new(2.0 * rng.vec(), d.normalize()) });
+        rays.push(Ray {
+            t_max: if i % 5 == 0 { 0.7 } else { f32::INFINITY },
+            ..Ray::new(2.0 * rng.vec(), d.normalize())
+        });
     }
     rays
 }

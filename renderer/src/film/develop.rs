@@ -107,7 +107,8 @@ impl Slots {
 
     fn moments(&self, film: &Film, tile: &Tile, pixel: usize) -> Moments {
         let plan = &film.plan;
-        let sums = |slot: Option<usize>| slot.map_or([0.0; 2], |slot| tile.sums[pixel * plan.sums.len() + slot]);
+        let sums =
+            |slot: Option<usize>| slot.map_or([0.0; 2], |slot| tile.sums[pixel * plan.sums.len() + slot]);
         let squares = self.squares.map(|slot| {
             let i = pixel * plan.squares.len() + slot;
             (tile.squares[i], f64::from(tile.shifts[i]))

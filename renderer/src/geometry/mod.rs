@@ -85,15 +85,17 @@ impl Geometry {
         let linear = DMat3::from_mat4(render_from_object);
         let mirrored = linear.determinant() < 0.0;
         let first_vertex = self.positions.len() as u32;
-        self.positions.extend(mesh.positions.iter().map(|&p| {
-            render_from_object.transform_point3(Vec3::from(p).as_dvec3()).as_vec3()
-        }));
+        self.positions.extend(
+            mesh.positions
+                .iter()
+                .map(|&p| render_from_object.transform_point3(Vec3::from(p).as_dvec3()).as_vec3()),
+        );
         let first_normal = if mesh.normals.is_empty() { ABSENT } else { self.normals.len() as u32 };
         let flip = if shape.flip_normals { -1.0 } else { 1.0 };
         let cofactor = normal_matrix(linear) * flip;
-        self.normals.extend(mesh.normals.iter().map(|&n| {
-            (cofactor * Vec3::from(n).as_dvec3()).normalize_or_zero().as_vec3()
-        }));
+        self.normals.extend(
+            mesh.normals.iter().map(|&n| (cofactor * Vec3::from(n).as_dvec3()).normalize_or_zero().as_vec3()),
+        );
         let first_uv = if mesh.uvs.is_empty() { ABSENT } else { self.uvs.len() as u32 };
         self.uvs.extend(mesh.uvs.iter().map(|&uv| Vec2::from(uv)));
         self.shapes.push(Shape {
@@ -188,6 +190,7 @@ fn triangle_count(shape: &SceneShape) -> usize {
 /// The matrix that normals transform by: cofactors, so that a singular one still turns most normals, with the
 /// determinant's sign, so that "outwards" stays outwards under a mirror.
 fn normal_matrix(m: DMat3) -> DMat3 {
-    let cofactor = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+    let cofactor =
+        DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
     if m.determinant() < 0.0 { cofactor * -1.0 } else { cofactor }
 }

@@ -105,7 +105,8 @@ impl Geometry {
         let shape_index = self.analytic_shapes[index];
         let analytic = &self.analytics[index];
         let frame = &analytic.frame;
-        let q = frame.object_from_render.transform_point3(ray.o.as_dvec3() + f64::from(hit.t) * ray.d.as_dvec3());
+        let q =
+            frame.object_from_render.transform_point3(ray.o.as_dvec3() + f64::from(hit.t) * ray.d.as_dvec3());
         let (q, n) = match analytic.kind {
             AnalyticKind::Sphere => (q.normalize_or(DVec3::Z), q.normalize_or(DVec3::Z)),
             AnalyticKind::Disk => (DVec3::new(q.x, q.y, 0.0), DVec3::Z),
@@ -204,8 +205,18 @@ mod tests {
 
     #[test]
     fn frames_are_orthonormal_and_right_handed() {
-        for z in [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::new(0.6, -0.64, 0.48), Vec3::new(1e-6, 0.0, -1.0).normalize()] {
-            for f in [Frame::around(z), Frame::with_tangent(z, Vec3::new(0.3, 0.9, 0.1)), Frame::with_tangent(z, z)] {
+        for z in [
+            Vec3::Z,
+            Vec3::NEG_Z,
+            Vec3::X,
+            Vec3::new(0.6, -0.64, 0.48),
+            Vec3::new(1e-6, 0.0, -1.0).normalize(),
+        ] {
+            for f in [
+                Frame::around(z),
+                Frame::with_tangent(z, Vec3::new(0.3, 0.9, 0.1)),
+                Frame::with_tangent(z, z),
+            ] {
                 assert!((f.x.cross(f.y) - f.z).length() < 1e-6, "{f:?}");
                 assert!(f.x.dot(f.y).abs() < 1e-6 && (f.x.length() - 1.0).abs() < 1e-6, "{f:?}");
                 let v = Vec3::new(0.2, -0.5, 0.7);

@@ -18,9 +18,9 @@ mod survive;
 
 use glam::Vec3;
 
-pub use batch::{Batch, accumulate, trace};
 #[cfg(test)]
 pub use batch::depth_first;
+pub use batch::{Batch, accumulate, trace};
 
 use crate::accel::Ray;
 use crate::camera::Camera;

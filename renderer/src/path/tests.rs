@@ -14,10 +14,12 @@ fn unit_sphere() -> ShapeKind {
 
 /// A small room with everything that the integrator has: an area light, a sky, two shapes.
 fn room() -> Scene {
-    let mut scene = scene(camera(DVec3::new(0.0, -4.0, 1.5), DVec3::ZERO, 40, 24), vec![diffuse(0.7), diffuse(0.2)]);
+    let mut scene =
+        scene(camera(DVec3::new(0.0, -4.0, 1.5), DVec3::ZERO, 40, 24), vec![diffuse(0.7), diffuse(0.2)]);
     add(&mut scene, ShapeKind::Rectangle, DMat4::from_scale(DVec3::splat(3.0)), 0);
     add(&mut scene, unit_sphere(), DMat4::from_translation(DVec3::new(0.6, 0.0, 1.0)), 1);
-    let up = DMat4::from_translation(DVec3::new(-1.0, 0.0, 2.5)) * DMat4::from_rotation_x(std::f64::consts::PI);
+    let up =
+        DMat4::from_translation(DVec3::new(-1.0, 0.0, 2.5)) * DMat4::from_rotation_x(std::f64::consts::PI);
     add(&mut scene, ShapeKind::Rectangle, up * DMat4::from_scale(DVec3::splat(0.4)), 1).emission = glow(9.0);
     sky(&mut scene, 0.2);
     scene
@@ -63,7 +65,8 @@ fn batch_and_depth_first_driver_agree_to_the_bit() {
 
 #[test]
 fn tiles_and_threads_change_no_bit() {
-    let frame = |tile, threads| render(&room(), |s| (s.spp, s.tile, s.threads) = (20, tile, Some(threads))).frame;
+    let frame =
+        |tile, threads| render(&room(), |s| (s.spp, s.tile, s.threads) = (20, tile, Some(threads))).frame;
     let one = frame(32, 1);
     assert_eq!(one, frame(7, 2));
     assert_eq!(one, frame(16, 5));
@@ -105,7 +108,9 @@ fn components_add_up_to_the_beauty() {
 
 #[test]
 fn samplers_and_depths_agree_on_direct_light() {
-    let value = |sampler, spp| mean(&render(&room(), |s| (s.sampler, s.spp, s.max_depth) = (sampler, spp, Some(2))), "G");
+    let value = |sampler, spp| {
+        mean(&render(&room(), |s| (s.sampler, s.spp, s.max_depth) = (sampler, spp, Some(2))), "G")
+    };
     let (sobol, independent) = (value(Sampler::Sobol, 256), value(Sampler::Independent, 256));
     // Both means have a standard error below 0.05 %.
     assert!((sobol / independent - 1.0).abs() < 0.003, "{sobol} {independent}");
