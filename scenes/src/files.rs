@@ -102,3 +102,40 @@ impl Files {
 pub(crate) fn identity(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_naming_file_comes_before_search_folders_and_the_exact_name_before_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path();
+        for sub in ["a", "b"] {
+            fs::create_dir(root.join(sub)).unwrap();
+        }
+        for file in ["a/x", "b/x", "b/y", "a/Y", "a/Z"] {
+            fs::write(root.join(file), file).unwrap();
+        }
+        let mut files = Files { folders: vec![root.join("b"), root.to_path_buf()], ..Files::default() };
+        let naming = root.join("a/scene.xml");
+        let mut find = |name: &str| {
+            let found = files.find(name, &naming)?;
+            Some((found.path.strip_prefix(root).unwrap().to_path_buf(), found.respelt))
+        };
+        assert_eq!(find("x"), Some(("a/x".into(), false)));
+        assert_eq!(find("y"), Some(("b/y".into(), false)));
+        assert_eq!(find("z"), Some(("a/Z".into(), true)));
+        assert_eq!(find(r"B\X"), Some(("b/x".into(), true)));
+        assert_eq!(find("b/x"), Some(("b/x".into(), false)));
+        assert_eq!(find("w"), None);
+    }
+
+    #[test]
+    fn the_hash_is_over_what_was_read() {
+        let mut files = Files::default();
+        files.count(b"abc");
+        // FIPS 180-2, example B.1
+        assert_eq!(files.hash(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+}

@@ -4,7 +4,7 @@ mod exr;
 
 use std::io::Cursor;
 
-use image::{DynamicImage, ImageDecoder, ImageReader};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
 use crate::spectrum::linear_from_srgb;
 use crate::{Image, Texels};
@@ -29,7 +29,8 @@ pub(crate) fn decode(bytes: &[u8], raw: bool) -> Result<Image, String> {
         return exr::decode(bytes);
     }
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| e.to_string())?;
-    if reader.format().is_none() {
+    let formats = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Bmp, ImageFormat::Hdr];
+    if !reader.format().is_some_and(|format| formats.contains(&format)) {
         return Err("not a PNG, JPEG, BMP, Radiance HDR or OpenEXR file".into());
     }
     let allowance = allowance(bytes.len());

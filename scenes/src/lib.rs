@@ -35,6 +35,8 @@ mod mitsuba;
 mod nearest;
 mod scene;
 mod spectrum;
+#[cfg(test)]
+mod testing;
 
 pub use error::SceneError;
 pub use load::{LoadOptions, load, load_str};

@@ -27,7 +27,10 @@ use self::object::Object;
 use crate::files::{Files, Found};
 use crate::mesh::{LoadedMesh, MeshOptions};
 use crate::nearest::suggest;
-use crate::{Color, Image, LoadOptions, MaterialId, Medium, MediumId, Place, Scene, SceneError, Warning};
+use crate::spectrum::Quantity;
+use crate::{
+    Color, Image, LoadOptions, MaterialId, Medium, MediumId, Place, Rgb, Scene, SceneError, Warning,
+};
 
 /// Objects inside one another through references. Real files have about 4.
 const MAX_NESTING: usize = 32;
@@ -41,7 +44,7 @@ pub(crate) fn read(
 ) -> Result<Scene, SceneError> {
     let xml = text::decode(bytes, file)?;
     let document = Document::parse(&xml, file, &mut files, options)?;
-    let mut reader = Reader::new(&document, files);
+    let mut reader = Reader::new(file, &document, files);
     reader.scene()?;
     let Reader { mut scene, mut warnings, files, .. } = reader;
     scene.file = file.into();
@@ -54,6 +57,8 @@ pub(crate) fn read(
 
 /// The scene so far, and what its objects share.
 struct Reader<'d> {
+    /// The scene file.
+    file: Arc<PathBuf>,
     document: &'d Document,
     files: Files,
     scene: Scene,
@@ -65,6 +70,7 @@ struct Reader<'d> {
     media: HashMap<ElementId, MediumId>,
     meshes: HashMap<(PathBuf, MeshOptions), LoadedMesh>,
     images: HashMap<(PathBuf, bool), Arc<Image>>,
+    spectra: HashMap<(PathBuf, Quantity), Rgb>,
     /// Objects that are being read: one that comes up again contains itself.
     open: HashSet<ElementId>,
     /// Objects that something refers to, so that a light that belongs to a shape is not missed at the top.
@@ -72,10 +78,11 @@ struct Reader<'d> {
 }
 
 impl<'d> Reader<'d> {
-    fn new(document: &'d Document, files: Files) -> Self {
+    fn new(file: &Path, document: &'d Document, files: Files) -> Self {
         let references = document.elements.iter().filter(|element| element.tag == "ref");
         let targets = references.filter_map(|element| document.by_id(element.attribute("id")?));
         Self {
+            file: Arc::new(file.into()),
             document,
             files,
             scene: Scene::default(),
@@ -86,6 +93,7 @@ impl<'d> Reader<'d> {
             media: HashMap::new(),
             meshes: HashMap::new(),
             images: HashMap::new(),
+            spectra: HashMap::new(),
             open: HashSet::new(),
             referenced: targets.collect(),
         }
@@ -138,13 +146,14 @@ impl<'d> Reader<'d> {
 
     /// Adds a warning about an element.
     fn warn(&mut self, id: ElementId, message: impl Into<String>) {
-        let element = self.document.element(id);
-        let warning = Warning {
-            place: element.place.clone(),
-            element: element.label(),
-            message: message.into(),
-            unused_parameter: false,
-        };
+        self.warn_as(id, &self.document.element(id).label(), message);
+    }
+
+    /// Adds a warning about an element under another name than its own.
+    fn warn_as(&mut self, id: ElementId, label: &str, message: impl Into<String>) {
+        let place = self.document.element(id).place.clone();
+        let warning =
+            Warning { place, element: label.into(), message: message.into(), unused_parameter: false };
         self.warnings.push((id, warning));
     }
 

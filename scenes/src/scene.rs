@@ -250,7 +250,17 @@ pub enum ShapeKind {
     Disk,
     /// \[−1, 1\]² in z = 0, normal +z; uv from (0, 0) at (−1, −1) to (1, 1) at (1, 1).
     Rectangle,
-    /// \[−1, 1\]³, normals outwards, each face with uv over \[0, 1\]².
+    /// \[−1, 1\]³, normals outwards, each face with uv over \[0, 1\]²:
+    ///
+    /// ```text
+    /// face    2u − 1   2v − 1
+    /// x = −1     y        z
+    /// x = +1     y       −z
+    /// y = −1     z        x
+    /// y = +1    −x       −z
+    /// z = −1    −y        x
+    /// z = +1     y        x
+    /// ```
     Cube,
 }
 
@@ -259,9 +269,9 @@ pub enum ShapeKind {
 pub struct Mesh {
     /// Vertex positions in object space.
     pub positions: Vec<[f32; 3]>,
-    /// One a vertex, not necessarily unit; empty: flat faces.
+    /// One a vertex, finite and not zero, not necessarily unit; empty: flat faces.
     pub normals: Vec<[f32; 3]>,
-    /// One a vertex; empty: the barycentric coordinates of each face stand in.
+    /// One a vertex, finite; empty: the barycentric coordinates of each face stand in.
     pub uvs: Vec<[f32; 2]>,
     /// Counter-clockwise seen from the side of the normal.
     pub triangles: Vec<[u32; 3]>,

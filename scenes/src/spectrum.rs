@@ -17,7 +17,7 @@ const Y_INTEGRAL: f64 = 106.750_259_399_414_06;
 const STEPS: usize = 1000;
 
 /// What a spectrum is a property of, which decides how it becomes a colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Quantity {
     /// A fraction of the light: seen under D65, kept in \[0, 1\].
     Reflectance,

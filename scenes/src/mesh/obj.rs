@@ -15,6 +15,8 @@ use crate::SceneError;
 
 /// "No texture coordinate" or "no normal" in a corner.
 const ABSENT: u32 = u32::MAX;
+/// An index that the file cannot hold.
+const BEYOND: u32 = u32::MAX - 1;
 
 /// Reads the text of an OBJ file.
 ///
@@ -114,12 +116,15 @@ impl Statements {
         let mut parts = word.split(|&byte| byte == b'/');
         for (i, (index, count)) in corner.iter_mut().zip(counts).enumerate() {
             match parts.next() {
-                Some(b"") if i > 0 => {}
-                None if i > 0 => {}
+                Some(b"") | None if i > 0 => {}
                 part => {
                     let text = std::str::from_utf8(part.unwrap_or_default()).unwrap_or_default();
                     let number = text.parse::<i64>().map_err(|_| bad_corner(word))?;
-                    *index = absolute(number, count).ok_or_else(|| bad_index(number, i))?;
+                    *index = match absolute(number, count) {
+                        Some(index) => index,
+                        None if i == 0 => return Err(bad_vertex(number)),
+                        None => BEYOND,
+                    };
                 }
             }
         }
@@ -127,7 +132,7 @@ impl Statements {
     }
 
     /// Joins equal corners into vertices and cuts faces into triangles.
-    fn into_mesh(self, file: &Path) -> Result<RawMesh, SceneError> {
+    fn into_mesh(mut self, file: &Path) -> Result<RawMesh, SceneError> {
         self.check_indices(file)?;
         let has_uvs = self.corners.iter().any(|corner| corner[1] != ABSENT);
         let has_normals = self.corners.iter().any(|corner| corner[2] != ABSENT);
@@ -145,6 +150,7 @@ impl Statements {
                 points.push(DVec3::from(position));
                 polygon.push(*vertices.entry(*corner).or_insert_with(|| {
                     positions.push(position);
+                    raw.numbers.push(corner[0] + 1);
                     if has_uvs {
                         raw.uvs.push(self.uvs.get(corner[1] as usize).copied().unwrap_or_default());
                     }
@@ -165,18 +171,25 @@ impl Statements {
         Ok(raw)
     }
 
-    /// Every index must be one that the file holds, if only further down.
-    fn check_indices(&self, file: &Path) -> Result<(), SceneError> {
-        let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
+    /// Every vertex must be one that the file holds, if only further down. A texture coordinate or a normal that it
+    /// does not hold counts as not given.
+    fn check_indices(&mut self, file: &Path) -> Result<(), SceneError> {
         let mut start = 0;
         for face in &self.faces {
-            for corner in &self.corners[start..face.end] {
-                let beyond =
-                    |i: &usize| corner[*i] as usize >= counts[*i] && (*i == 0 || corner[*i] != ABSENT);
-                if let Some(i) = (0..3).find(beyond) {
-                    let (problem, help) = bad_index(i64::from(corner[i]) + 1, i);
-                    let problem = format!("{problem}: the file has {}", counts[i]);
+            for corner in &mut self.corners[start..face.end] {
+                if corner[0] as usize >= self.positions.len() {
+                    let (problem, help) = bad_vertex(i64::from(corner[0]) + 1);
+                    let problem = format!("{problem}: the file has {}", self.positions.len());
                     return Err(mesh_error(file, face.line, 1, problem, help));
+                }
+                let counts = [(1, self.uvs.len(), "texture coordinates"), (2, self.normals.len(), "normals")];
+                for (i, count, what) in counts {
+                    if corner[i] != ABSENT && corner[i] as usize >= count {
+                        corner[i] = ABSENT;
+                        let message =
+                            format!("face with {what} that the file does not hold; it is read without");
+                        self.notes.push(Note { line: face.line, message });
+                    }
                 }
             }
             start = face.end;
@@ -220,7 +233,7 @@ fn number(word: &[u8]) -> Result<f64, Bad> {
 fn absolute(number: i64, count: usize) -> Option<u32> {
     let index = if number > 0 { number - 1 } else { i64::try_from(count).ok()?.checked_add(number)? };
     let index = u32::try_from(index).ok()?;
-    (number != 0 && index != ABSENT).then_some(index)
+    (number != 0 && index < BEYOND).then_some(index)
 }
 
 fn bad_corner(word: &[u8]) -> Bad {
@@ -228,12 +241,12 @@ fn bad_corner(word: &[u8]) -> Bad {
     (format!("face with the corner \"{word}\""), "write corners as v, v/vt, v//vn or v/vt/vn")
 }
 
-fn bad_index(number: i64, which: usize) -> Bad {
-    let what = ["vertex", "texture coordinate", "normal"][which];
-    (format!("face with {what} {number}"), "count from 1, or backwards from -1, within what the file defines")
+fn bad_vertex(number: i64) -> Bad {
+    let help = "count from 1, or backwards from -1, within what the file defines";
+    (format!("face with vertex {number}"), help)
 }
 
-/// One remark for all dropped faces, at the line of the first.
+/// One remark for all faces, at the line of the first.
 fn summary(notes: Vec<Note>) -> Vec<Note> {
     let count = notes.len();
     let mut first: Vec<Note> = notes.into_iter().take(1).collect();

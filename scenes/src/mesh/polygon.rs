@@ -19,6 +19,11 @@ pub(super) fn triangulate(points: &[DVec3], budget: &mut u64, mut emit: impl FnM
         }
         return;
     }
+    // a fan around a corner that is no number: all triangles have it, so that the face is dropped whole
+    if let Some(bad) = points.iter().position(|p| !p.is_finite()) {
+        (1..n - 1).for_each(|i| emit([bad, (bad + i) % n, (bad + i + 1) % n]));
+        return;
+    }
     let flat = project(points);
     let is_convex = (0..n).all(|i| turn(flat[(i + n - 1) % n], flat[i], flat[(i + 1) % n]) >= 0.0);
     let steps = (n * n * n) as u64;
@@ -99,7 +104,7 @@ mod tests {
     fn star(tips: usize, u: DVec3, v: DVec3) -> Vec<DVec3> {
         let corner = |i: usize| {
             let (sin, cos) = (i as f64 * std::f64::consts::PI / tips as f64).sin_cos();
-            (u * cos + v * sin) * if i % 2 == 0 { 1.0 } else { 0.3 }
+            (u * cos + v * sin) * if i.is_multiple_of(2) { 1.0 } else { 0.3 }
         };
         (0..2 * tips).map(corner).collect()
     }

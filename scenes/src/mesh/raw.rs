@@ -18,6 +18,8 @@ pub(super) struct RawMesh {
     pub triangles: Vec<[u32; 3]>,
     /// The number of the face in the file that each triangle was cut from, counted from 1; empty: its own number.
     pub faces: Vec<u32>,
+    /// The number in the file that each vertex has, counted from 1; empty: its own number.
+    pub numbers: Vec<u32>,
     pub notes: Vec<Note>,
 }
 
@@ -47,7 +49,7 @@ impl Positions {
 impl RawMesh {
     /// The mesh that a scene can hold.
     pub fn finish(self, options: MeshOptions) -> LoadedMesh {
-        let Self { positions, normals: file_normals, uvs, triangles, faces, mut notes } = self;
+        let Self { positions, normals: file_normals, uvs, triangles, faces, numbers, mut notes } = self;
         let (positions, offset) = match positions {
             Positions::Single(positions) => (positions, DVec3::ZERO),
             Positions::Double(positions) => round(positions),
@@ -59,7 +61,7 @@ impl RawMesh {
         if options.flip_tex_coords {
             mesh.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
         }
-        drop_non_finite(&mut mesh, &faces, &mut notes);
+        drop_non_finite(&mut mesh, &faces, &numbers, &mut notes);
         let bad_uvs = mesh.uvs.iter_mut().filter(|uv| !(uv[0].is_finite() && uv[1].is_finite()));
         let bad_uvs = bad_uvs.map(|uv| *uv = [0.0; 2]).count();
         if bad_uvs > 0 {
@@ -98,7 +100,7 @@ fn round(positions: Vec<[f64; 3]>) -> (Vec<[f32; 3]>, DVec3) {
 }
 
 /// Drops the faces that have a vertex that is not finite, and those vertices.
-fn drop_non_finite(mesh: &mut Mesh, faces: &[u32], notes: &mut Vec<Note>) {
+fn drop_non_finite(mesh: &mut Mesh, faces: &[u32], numbers: &[u32], notes: &mut Vec<Note>) {
     let is_finite = |p: &[f32; 3]| p.iter().all(|v| v.is_finite());
     if mesh.positions.iter().all(is_finite) {
         return;
@@ -109,12 +111,13 @@ fn drop_non_finite(mesh: &mut Mesh, faces: &[u32], notes: &mut Vec<Note>) {
     let before = triangles.len();
     triangles.retain(|t| bad_vertex(t).is_none());
     if let Some((index, vertex)) = first {
-        let face = faces.get(index).map_or(index + 1, |face| *face as usize);
+        let in_file =
+            |own: usize, numbers: &[u32]| numbers.get(own).map_or(own + 1, |number| *number as usize);
+        let (face, vertex) = (in_file(index, faces), in_file(vertex as usize, numbers));
         let dropped = before - triangles.len();
         let s = if dropped == 1 { "" } else { "s" };
         let message = format!(
-            "{dropped} triangle{s} with vertices that are not finite numbers dropped, first face {face} with vertex {}",
-            vertex + 1
+            "{dropped} triangle{s} with vertices that are not finite numbers dropped, first face {face} with vertex {vertex}"
         );
         notes.push(Note { line: 0, message });
     }

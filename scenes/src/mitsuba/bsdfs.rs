@@ -72,7 +72,7 @@ impl Reader<'_> {
         kind: &str,
     ) -> Result<Result<MaterialId, MaterialKind>, SceneError> {
         if let Some(&(inner, _)) = object.nested("bsdf")?.first() {
-            self.warn(object.id, format!("{kind}: not read yet; the bsdf inside stands in"));
+            self.warn(object.id, format!("{kind} is not read yet; the bsdf inside stands in"));
             return self.material(inner).map(Ok);
         }
         let mut reflectance = GREY;
@@ -80,7 +80,7 @@ impl Reader<'_> {
             reflectance = self.color(object, key, Quantity::Reflectance, reflectance)?;
         }
         object.all_without_effect();
-        self.warn(object.id, format!("{kind}: not read yet; a diffuse bsdf stands in"));
+        self.warn(object.id, format!("{kind} is not read yet; a diffuse bsdf stands in"));
         Ok(Err(MaterialKind::Diffuse { reflectance }))
     }
 

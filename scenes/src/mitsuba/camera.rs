@@ -1,5 +1,6 @@
 //! `<sensor>`, `<film>`, `<rfilter>` and `<sampler>`.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
@@ -15,6 +16,8 @@ use crate::{
 
 /// Pixels of a side: more than any picture has, and far from where areas overflow.
 const MAX_SIDE: i64 = 1 << 20;
+/// Pixels that are rendered at once: layers of so many take hundreds of gigabytes.
+const MAX_PIXELS: i64 = 1 << 30;
 /// Diagonal of a 36 × 24 mm negative, to which focal lengths refer.
 const DIAGONAL_MM: f64 = 43.266_615_305_567_875;
 
@@ -68,7 +71,7 @@ impl Reader<'_> {
 
     fn projection(&mut self, object: &Object<'_>, kind: &str) -> Result<Projection, SceneError> {
         if SENSORS.standing(kind, object.element)? == Standing::Later {
-            self.warn(object.id, format!("{kind}: not read yet; a pinhole camera stands in"));
+            self.warn(object.id, format!("{kind} is not read yet; a pinhole camera stands in"));
             object.without_effect(&["aperture_radius", "aperture_blades"]);
         }
         let axes = [
@@ -117,6 +120,13 @@ impl Reader<'_> {
         let width = object.integer("width", [1, MAX_SIDE])?.unwrap_or(i64::from(DEFAULT_FILM.width));
         let height = object.integer("height", [1, MAX_SIDE])?.unwrap_or(i64::from(DEFAULT_FILM.height));
         let crop = crop(&object, [width, height])?;
+        let pixels = crop.map_or(width * height, |crop| i64::from(crop.width) * i64::from(crop.height));
+        if pixels > MAX_PIXELS {
+            return Err(object.error(
+                format!("{width}x{height} pixels"),
+                format!("render at most {MAX_PIXELS}: use a crop"),
+            ));
+        }
         let filter = match object.nested("rfilter")?[..] {
             [] => DEFAULT_FILM.filter,
             [(filter, _), ..] => self.filter(filter)?,
@@ -179,8 +189,7 @@ impl Reader<'_> {
         };
         let world_from_camera =
             if world_from_camera.is_finite() { world_from_camera } else { DMat4::IDENTITY };
-        let file = self.document.elements.first().map(|element| Arc::clone(&element.place.file));
-        let place = Place { file: file.unwrap_or_default(), line: 1, column: 1 };
+        let place = Place { file: Arc::clone(&self.file), line: 1, column: 1 };
         self.warnings.push((
             ElementId(usize::MAX),
             Warning {
@@ -247,12 +256,13 @@ fn crop(object: &Object<'_>, size: [i64; 2]) -> Result<Option<Crop>, SceneError>
 /// The box around all shapes; its low end above its high end where there are none.
 fn bounds(shapes: &[Shape]) -> (DVec3, DVec3) {
     let mut bounds = (DVec3::MAX, DVec3::MIN);
+    let mut meshes = HashMap::new(); // by address: many shapes may share a mesh
     for shape in shapes {
         let (low, high) = match &shape.kind {
-            ShapeKind::Mesh(mesh) => {
+            ShapeKind::Mesh(mesh) => *meshes.entry(Arc::as_ptr(mesh)).or_insert_with(|| {
                 let points = mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from)));
                 points.fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(p), high.max(p)))
-            }
+            }),
             ShapeKind::Sphere { center, radius } => (*center - *radius, *center + *radius),
             ShapeKind::Disk | ShapeKind::Rectangle => {
                 (DVec3::new(-1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 0.0))

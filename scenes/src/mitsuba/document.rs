@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::parameters::{Parameters, snake_case};
+use super::value::shorten;
 use super::{guard, text};
 use crate::files::{Files, identity};
 use crate::{LoadOptions, Place, SceneError, Warning};
@@ -56,7 +57,10 @@ impl Element {
     /// What the user would search for: `bsdf "floor"`, `float "radius"`, or its type where it has no name.
     pub fn label(&self) -> String {
         let name = self.attribute("id").or(self.attribute("name")).or(self.attribute("type"));
-        name.map_or_else(|| self.tag.clone(), |name| format!("{} \"{name}\"", self.tag))
+        name.map_or_else(
+            || shorten(&self.tag),
+            |name| format!("{} \"{}\"", shorten(&self.tag), shorten(name)),
+        )
     }
 }
 
@@ -105,8 +109,8 @@ impl Document {
     /// The element that carries an id.
     pub fn by_id(&self, id: &str) -> Option<ElementId> {
         let mut id = id;
-        // aliases of aliases end, since each name is an alias once at most; a cycle is cut
-        for _ in 0..=self.aliases.len() {
+        // an alias of an alias of an alias: a long chain would cost its length for each reference, a circle would not end
+        for _ in 0..MAX_ALIASES {
             match self.aliases.get(id) {
                 Some(original) => id = original,
                 None => break,
@@ -121,6 +125,10 @@ impl Document {
     }
 }
 
+/// How often an alias may stand for another alias.
+const MAX_ALIASES: usize = 16;
+/// Bytes of an id: it is repeated in names and messages.
+const MAX_ID: usize = 1024;
 /// How often files may be included in all, and how deep.
 const MAX_INCLUDES: usize = 4096;
 const MAX_INCLUDE_DEPTH: usize = 16;
@@ -144,6 +152,7 @@ struct Builder<'a> {
 /// What the elements of one file have in common.
 struct Source<'t> {
     file: Arc<PathBuf>,
+    xml: &'t str,
     cursor: text::Cursor<'t>,
     is_old: bool,
 }
@@ -165,6 +174,7 @@ impl Builder<'_> {
     ) -> Result<Vec<ElementId>, SceneError> {
         let mut source = Source {
             file: Arc::new(file.into()),
+            xml,
             cursor: text::Cursor::new(xml),
             is_old: parent_is_old.unwrap_or(false),
         };
@@ -224,11 +234,12 @@ impl Builder<'_> {
         for node in parent.children() {
             if node.is_element() {
                 children.extend(self.element(node, source)?);
-            } else if let Some(stray) = node.text().filter(|_| node.is_text())
+            } else if node.is_text()
+                && let Some(stray) = source.xml.get(node.range())
                 && let Some(start) = stray.find(|c: char| !c.is_whitespace())
             {
                 let place = source.place(node.range().start + start);
-                let words: String = stray.trim().chars().take(40).collect();
+                let words = shorten(stray.trim());
                 let message =
                     format!("the text \"{words}\" between elements means nothing and is passed over");
                 let element = parent.tag_name().name().into();
@@ -290,6 +301,11 @@ impl Builder<'_> {
                 }
                 let id = element.id;
                 if let Some(name) = element.attribute("id").filter(|_| tag != "ref").map(String::from) {
+                    if name.len() > MAX_ID {
+                        let problem = format!("an id of {} bytes", name.len());
+                        let help = format!("use at most {MAX_ID} bytes");
+                        return Err(SceneError::at(&element.place, &element.label(), problem, help));
+                    }
                     self.check_unused_id(&name, &element)?;
                     self.document.ids.insert(name, id);
                 }
@@ -381,6 +397,3 @@ pub(super) fn required<'e>(element: &'e Element, name: &str) -> Result<&'e str, 
         )
     })
 }
-
-#[cfg(test)]
-mod tests;

@@ -30,7 +30,7 @@ impl Reader<'_> {
         let object = Object::new(self.document, id);
         let kind = object.kind()?;
         if EMITTERS.standing(kind, object.element)? == Standing::Later {
-            self.warn(id, format!("{kind}: not read yet; the light is left out"));
+            self.warn(id, format!("{kind} is not read yet; the light is left out"));
             return Ok(());
         }
         object.without_effect(&["sampling_weight", "samples"]);
@@ -64,9 +64,9 @@ impl Reader<'_> {
 
     fn envmap(&mut self, object: &Object<'_>) -> Result<LightKind, SceneError> {
         let path = self.file(object)?;
-        let scale = object
-            .float_where("scale", 1.0, "a number that fits 32 bits", |v| (v as f32).is_finite())?
-            as f32;
+        let scale = object.float_where("scale", 1.0, "at least 0 and in the range of 32 bits", |v| {
+            v >= 0.0 && (v as f32).is_finite()
+        })? as f32;
         let world_from_light = object.transform("to_world")?;
         if !is_invertible(world_from_light) {
             return Err(object.error("to_world flattens space", "use scales other than 0"));

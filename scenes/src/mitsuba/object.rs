@@ -10,6 +10,9 @@ use super::value::{self, shorten, value_error};
 use crate::nearest::suggest;
 use crate::{Place, SceneError, Warning};
 
+/// Unused parameters of one object that are named one by one.
+const MAX_UNUSED: usize = 20;
+
 /// An element with a type (`bsdf`, `shape`, …) whose parameters are being read.
 ///
 /// What was asked for is remembered: [`finish`](Self::finish) warns of the rest.
@@ -34,13 +37,12 @@ impl<'d> Object<'d> {
 
     /// `float "radius" of sphere "ball"`: what an error about a parameter is about.
     pub fn label_of(&self, parameter: &Element) -> String {
-        let owner = self.element.attribute("id").map_or_else(
-            || match self.element.attribute("type") {
-                Some(kind) if kind != self.element.tag => format!("{} \"{kind}\"", self.element.tag),
-                _ => self.element.tag.clone(),
-            },
-            |id| format!("{} \"{id}\"", self.element.tag),
-        );
+        let kind =
+            self.element.attribute("type").map(|kind| format!("{} \"{}\"", self.element.tag, shorten(kind)));
+        let owner = match self.element.attribute("id") {
+            None => kind.unwrap_or_else(|| self.element.tag.clone()),
+            Some(_) => self.element.label(),
+        };
         format!("{} of {owner}", parameter.label())
     }
 
@@ -225,7 +227,8 @@ impl<'d> Object<'d> {
     /// Warnings about every parameter that nobody asked for.
     pub fn finish(self, warnings: &mut Vec<(ElementId, Warning)>) {
         let (used, asked) = (self.used.borrow(), self.asked.borrow());
-        for &id in self.element.children.iter().filter(|id| !used.contains(id)) {
+        let unused: Vec<_> = self.element.children.iter().filter(|id| !used.contains(id)).collect();
+        for &&id in unused.iter().take(MAX_UNUSED) {
             let child = self.document.element(id);
             let what =
                 if child.key.is_empty() { format!("<{}>", child.tag) } else { format!("\"{}\"", child.key) };
@@ -246,6 +249,12 @@ impl<'d> Object<'d> {
                     unused_parameter: true,
                 },
             ));
+        }
+        if let Some(&&next) = unused.get(MAX_UNUSED) {
+            let place = self.document.element(next).place.clone();
+            let message = format!("{} more unused parameters from here on", unused.len() - MAX_UNUSED);
+            let element = self.element.label();
+            warnings.push((next, Warning { place, element, message, unused_parameter: true }));
         }
     }
 

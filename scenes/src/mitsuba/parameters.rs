@@ -7,6 +7,9 @@ use crate::nearest::suggest;
 /// Bytes that expansion may add to one file: values that hold each other double without end.
 const MAX_EXPANDED: usize = 64 << 20;
 
+/// Bytes of a name that is not set off from what follows it: each is tried.
+const MAX_NAME: usize = 64;
+
 /// The parameters of a file: `-D name=value` and `<default>`.
 #[derive(Debug)]
 pub(super) struct Parameters {
@@ -47,7 +50,8 @@ impl Parameters {
         let mut expanded = String::from(before);
         loop {
             let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
-            let known = (1..=end.min(256)).rev().find(|&length| self.values.contains_key(&rest[..length]));
+            let lengths = std::iter::once(end).chain((1..end.min(MAX_NAME)).rev());
+            let known = lengths.into_iter().find(|&length| self.values.contains_key(&rest[..length]));
             let Some(length) = known else {
                 let name = &rest[..end];
                 let help = if self.values.is_empty() {

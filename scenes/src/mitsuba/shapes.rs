@@ -18,7 +18,7 @@ impl Reader<'_> {
         let object = Object::new(self.document, id);
         let kind = object.kind()?;
         if SHAPES.standing(kind, object.element)? == Standing::Later {
-            self.warn(id, format!("{kind}: not read yet; the shape is left out"));
+            self.warn(id, format!("{kind} is not read yet; the shape is left out"));
             return Ok(());
         }
         let mut world_from_object = object.transform("to_world")?;

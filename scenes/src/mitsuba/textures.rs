@@ -10,9 +10,9 @@ use super::object::Object;
 use super::survey::{Standing, TEXTURES};
 use super::{Reader, value};
 use crate::files::identity;
-use crate::spectrum::Quantity;
+use crate::spectrum::{Quantity, integrate};
 use crate::{
-    Color, Image, Scalar, SceneError, TexelFilter, Texels, Texture, TextureId, TextureKind, WrapMode,
+    Color, Image, Rgb, Scalar, SceneError, TexelFilter, Texels, Texture, TextureId, TextureKind, WrapMode,
 };
 
 /// What stands in for a texture that is not read: a reflectance as good as any.
@@ -66,7 +66,7 @@ impl Reader<'_> {
             return self.texture(target);
         }
         let label = object.label_of(parameter);
-        let spd = |name: &str| self.spd(name, element, &label);
+        let spd = |name: &str| self.spd(name, element, &label, quantity);
         let color = match value::color(element, quantity, spd)? {
             Some(color) => color,
             None => match element.attribute("type") {
@@ -79,10 +79,9 @@ impl Reader<'_> {
             },
         };
         if quantity == Quantity::Reflectance && color.iter().any(|v| !(0.0..=1.0).contains(v)) {
-            let message = format!(
-                "{label}: a reflectance beyond 0 to 1, {color:?}, is clamped: it would make light of nothing"
-            );
-            self.warn(id, message);
+            let message =
+                format!("a reflectance beyond 0 to 1, {color:?}, is clamped: it would make light of nothing");
+            self.warn_as(id, &label, message);
             return Ok(Color::Constant(color.map(|v| v.clamp(0.0, 1.0))));
         }
         if color.iter().any(|v| *v < 0.0) {
@@ -119,18 +118,32 @@ impl Reader<'_> {
         Ok(Color::Constant(color))
     }
 
-    /// The points of a spectrum in a file of its own.
-    fn spd(&mut self, name: &str, naming: &Element, label: &str) -> Result<Vec<[f64; 2]>, SceneError> {
+    /// The colour of a spectrum in a file of its own.
+    fn spd(
+        &mut self,
+        name: &str,
+        naming: &Element,
+        label: &str,
+        quantity: Quantity,
+    ) -> Result<Rgb, SceneError> {
         let path = self.find(name, naming, label)?;
+        let key = (identity(&path), quantity);
+        if let Some(&known) = self.spectra.get(&key) {
+            return Ok(known);
+        }
         let bytes = self.bytes(&path, &naming.place, label)?;
-        value::spd_points(&String::from_utf8_lossy(&bytes)).map_err(|(line, problem)| SceneError {
-            file: path,
-            line,
-            column: line.min(1),
-            element: "spectrum".into(),
-            problem,
-            help: "write lines of wavelength in nm and value, from short to long".into(),
-        })
+        let points =
+            value::spd_points(&String::from_utf8_lossy(&bytes)).map_err(|(line, problem)| SceneError {
+                file: path,
+                line,
+                column: line.min(1),
+                element: "spectrum".into(),
+                problem,
+                help: "write lines of wavelength in nm and value, from short to long".into(),
+            })?;
+        let color = integrate(&points, quantity);
+        self.spectra.insert(key, color);
+        Ok(color)
     }
 
     /// A texture, read once however often it is referred to. One that is not read becomes a constant.
@@ -147,7 +160,7 @@ impl Reader<'_> {
         let object = Object::new(self.document, id);
         let kind = object.kind()?;
         if TEXTURES.standing(kind, object.element)? == Standing::Later {
-            self.warn(id, format!("{kind}: not read yet; grey 0.5 stands in"));
+            self.warn(id, format!("{kind} is not read yet; grey 0.5 stands in"));
             return Ok(GREY);
         }
         let texture = match kind {

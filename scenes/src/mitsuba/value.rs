@@ -124,11 +124,8 @@ fn look_at(element: &Element) -> Result<DMat4, SceneError> {
             "look at another point",
         ));
     };
-    let left = match element.attribute("up") {
-        Some(_) => triple("up")?.try_normalize().and_then(|up| up.cross(forward).try_normalize()),
-        None => None,
-    };
-    let Some(left) = left.or_else(|| element.attribute("up").is_none().then(|| any_left(forward))) else {
+    let up = if element.attribute("up").is_some() { triple("up")? } else { any_up(forward) };
+    let Some(left) = up.try_normalize().and_then(|up| up.cross(forward).try_normalize()) else {
         return Err(value_error(
             element,
             "up",
@@ -141,7 +138,7 @@ fn look_at(element: &Element) -> Result<DMat4, SceneError> {
 }
 
 /// Some direction across `forward`, for a `lookat` without `up` (Duff et al. 2017, as Mitsuba takes it).
-fn any_left(forward: DVec3) -> DVec3 {
+fn any_up(forward: DVec3) -> DVec3 {
     let sign = 1.0f64.copysign(forward.z);
     let a = -1.0 / (sign + forward.z);
     let b = forward.x * forward.y * a;
@@ -178,7 +175,7 @@ fn matrix(element: &Element) -> Result<DMat4, SceneError> {
 pub(super) fn color(
     element: &Element,
     quantity: Quantity,
-    spd: impl FnOnce(&str) -> Result<Vec<[f64; 2]>, SceneError>,
+    file: impl FnOnce(&str) -> Result<Rgb, SceneError>,
 ) -> Result<Option<Rgb>, SceneError> {
     let color = match element.tag.as_str() {
         "float" | "integer" => [number(element, "value")? as f32; 3],
@@ -192,9 +189,7 @@ pub(super) fn color(
             let scale = if element.attribute("scale").is_some() { number(element, "scale")? } else { 1.0 };
             spectrum::blackbody(kelvins).map(|v| v * scale as f32)
         }
-        "spectrum" if element.attribute("filename").is_some() => {
-            spectrum::integrate(&spd(required(element, "filename")?)?, quantity)
-        }
+        "spectrum" if element.attribute("filename").is_some() => file(required(element, "filename")?)?,
         "spectrum" if element.attribute("type").is_none() => listed(element, quantity)?,
         _ => return Ok(None),
     };

@@ -49,14 +49,22 @@ fn dropped_faces_are_counted_at_the_line_of_the_first() {
 }
 
 #[test]
+fn normals_and_texture_coordinates_that_are_not_there_count_as_not_given() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1/1 2//-4 3//4294967295\n";
+    let loaded = load(text, MeshOptions { face_normals: false, ..AS_IT_IS }).unwrap();
+    assert_eq!(loaded.mesh.normals, [[0.0, 0.0, 1.0]; 3]);
+    assert!(loaded.mesh.uvs.is_empty());
+    let message = "face with texture coordinates that the file does not hold; it is read without, and 3 more";
+    assert_eq!(loaded.notes, [Note { line: 4, message: message.into() }]);
+}
+
+#[test]
 fn errors_name_file_line_and_text() {
     let cases = [
         ("v 0 0 0\nf 1 2 99999999999\n", "m.obj:2:1: mesh: face with vertex 99999999999"),
         ("v 0 0 0\nv 0 0 0\nf 1 2 3\n", "m.obj:3:1: mesh: face with vertex 3: the file has 2"),
         ("v 0 0 0\nf 0 1 1\n", "m.obj:2:1: mesh: face with vertex 0"),
         ("v 0 0 0\nf 1 1 -2\n", "m.obj:2:1: mesh: face with vertex -2"),
-        ("v 0 0 0\nf 1/1 1/1 1/1\n", "m.obj:2:1: mesh: face with texture coordinate 1"),
-        ("v 0 0 0\nf 1//1 1//1 1//4294967295\n", "m.obj:2:1: mesh: face with normal 1"),
         ("v 0 0 0\nf 1/a 1 1\n", "m.obj:2:1: mesh: face with the corner \"1/a\""),
         ("v 0 0 0\nf 1/1/1/1 1 1\n", "m.obj:2:1: mesh: face with the corner \"1/1/1/1\""),
         ("v 0 0\n", "m.obj:1:1: mesh: 2 numbers where 3 belong"),
