@@ -1,0 +1,32 @@
+//! Ctrl-C: while a render runs the first one stops it and keeps what is done; any other ends the program at once.
+
+use std::io::{self, Write};
+use std::process;
+use std::sync::atomic::Ordering::Relaxed;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use limpid_renderer::Progress;
+
+/// The render that the first Ctrl-C stops.
+static RENDER: Mutex<Option<Arc<Progress>>> = Mutex::new(None);
+
+/// Takes over Ctrl-C. Files appear whole or not at all, so that ending at once leaves no half of one.
+pub fn install(quiet: bool) {
+    // Where the system gives no handler its own stays: it ends the program, too.
+    let _ = ctrlc::set_handler(move || {
+        let render = RENDER.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*render {
+            Some(progress) if !progress.cancel.swap(true, Relaxed) => {
+                if !quiet {
+                    let _ = writeln!(io::stderr(), "\nstopping; Ctrl-C again to keep nothing");
+                }
+            }
+            _ => process::exit(130),
+        }
+    });
+}
+
+/// From now on the first Ctrl-C cancels this render.
+pub fn stop_gently(progress: &Arc<Progress>) {
+    *RENDER.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(progress));
+}
