@@ -12,7 +12,7 @@ use crate::{Image, Texels};
 /// No format here packs pixels tighter than this; what claims to is refused before memory is taken.
 const MAX_EXPANSION: u64 = 4096;
 /// Bytes that a decoded picture may take whatever its file's size.
-const MAX_DECODED: u64 = 16 << 30;
+const MAX_DECODED: u64 = 8 << 30;
 
 /// Bytes that the picture in a file of `file_len` bytes may take.
 fn allowance(file_len: usize) -> u64 {

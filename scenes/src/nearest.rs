@@ -1,5 +1,8 @@
 //! Known names, nearest first, for messages about unknown ones.
 
+/// Names that a message lists.
+const MAX_LISTED: usize = 40;
+
 /// `did you mean "diffuse"? known types: diffuse, dielectric, …`
 ///
 /// The first clause only where a name is near enough to be meant.
@@ -10,8 +13,10 @@ pub(crate) fn suggest<'a>(unknown: &str, what: &str, known: impl IntoIterator<It
     let Some(&(nearest, best)) = ranked.first() else {
         return format!("remove it: there are no {what}");
     };
-    let list: Vec<_> = ranked.iter().map(|(_, name)| *name).collect();
-    let list = list.join(", ");
+    let mut list = ranked.iter().take(MAX_LISTED).map(|(_, name)| *name).collect::<Vec<_>>().join(", ");
+    if ranked.len() > MAX_LISTED {
+        list += ", …";
+    }
     if nearest <= 1 + best.chars().count() / 3 {
         format!("did you mean \"{best}\"? known {what}: {list}")
     } else {
@@ -49,6 +54,14 @@ mod tests {
     #[test]
     fn nothing_is_suggested_for_a_far_name() {
         assert_eq!(suggest("xyzzy", "types", ["conductor"]), "known types: conductor");
+    }
+
+    #[test]
+    fn long_lists_end_in_dots() {
+        let names: Vec<String> = (0..100).map(|i| format!("name{i:02}")).collect();
+        let text = suggest("name55", "names", names.iter().map(String::as_str));
+        assert!(text.starts_with("did you mean \"name55\"?") && text.ends_with(", …"), "{text}");
+        assert_eq!(text.matches("name").count(), 2 + MAX_LISTED, "{text}"); // with "known names"
     }
 
     #[test]

@@ -119,9 +119,12 @@ impl Document {
         self.ids.get(id).copied()
     }
 
-    /// All ids, for messages.
+    /// The ids and aliases of the document, for messages: the first ten thousand, in its order.
     pub fn ids(&self) -> impl Iterator<Item = &str> {
-        self.ids.keys().chain(self.aliases.keys()).map(String::as_str)
+        let elements = self.elements.iter().filter(|element| element.tag != "ref");
+        let mut aliases: Vec<_> = self.aliases.keys().map(String::as_str).collect();
+        aliases.sort();
+        aliases.into_iter().chain(elements.filter_map(|element| element.attribute("id"))).take(10_000)
     }
 }
 

@@ -219,7 +219,7 @@ impl<'d> Object<'d> {
         }
         let name = required(element, "id")?;
         self.document.by_id(name).ok_or_else(|| {
-            let help = suggest(name, "ids", self.document.ids().take(1000));
+            let help = suggest(name, "ids", self.document.ids());
             value_error(element, "id", format!("no object has the id \"{}\"", shorten(name)), &help)
         })
     }
