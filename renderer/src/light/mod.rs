@@ -96,7 +96,7 @@ enum Form {
 enum Infinite {
     /// The same radiance from everywhere.
     Constant(Rgb),
-    EnvMap(EnvMap),
+    EnvMap(Box<EnvMap>),
 }
 
 /// All lights of a scene.
@@ -299,7 +299,7 @@ impl Infinite {
         match kind {
             LightKind::Constant { radiance } => Self::Constant((*radiance).into()),
             LightKind::EnvMap { image, scale, world_from_light } => {
-                Self::EnvMap(EnvMap::new(image.clone(), *scale, *world_from_light))
+                Self::EnvMap(Box::new(EnvMap::new(image.clone(), *scale, *world_from_light)))
             }
         }
     }

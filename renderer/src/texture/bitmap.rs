@@ -44,8 +44,8 @@ fn wrap(x: f64, mode: WrapMode) -> f64 {
             let twice = 2.0 * fract(0.5 * x);
             if twice > 1.0 { 2.0 - twice } else { twice }
         }
-        // `max` and `min` leave the number where the other is NaN.
-        WrapMode::Clamp => x.max(0.0).min(1.0),
+        WrapMode::Clamp if x > 0.0 => x.min(1.0),
+        WrapMode::Clamp => 0.0, // also where x is NaN
     }
 }
 

@@ -16,6 +16,7 @@ fn plain(image: Arc<Image>) -> EnvMap {
 
 // What Mitsuba 3.9.1 gives for an 8×4 picture of (column, row, 1).
 #[test]
+#[allow(clippy::approx_constant)]
 fn directions_are_looked_up_as_in_mitsuba() {
     let image = map(8, 4, |i, j| [i as f32, j as f32, 1.0]);
     let light = plain(image.clone());
