@@ -2,7 +2,7 @@
 //!
 //! Reading goes in two steps. `document` makes a flat list of elements of the text: includes are spliced in,
 //! `$parameters` expanded, old names turned into new ones, every element with its place. Then each object is read
-//! through [`Object`](object::Object), which remembers what was asked for, so that the rest can be warned of.
+//! through [`Object`], which remembers what was asked for, so that the rest can be warned of.
 
 mod bsdfs;
 mod camera;

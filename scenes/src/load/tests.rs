@@ -54,6 +54,18 @@ fn the_first_four_scenes_load_whole_and_without_a_warning() {
 }
 
 #[test]
+fn scenes_of_our_own_load_strictly_and_without_a_warning() {
+    for folder in ["library", "tune"] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        for path in files_below(&folder, "xml").iter().filter(|path| path.ends_with("scene.xml")) {
+            let options = LoadOptions { strict: true, ..LoadOptions::default() };
+            let scene = load(path, &options).unwrap_or_else(|error| panic!("{error}"));
+            assert!(scene.warnings.is_empty(), "{}: {:?}", path.display(), scene.warnings);
+        }
+    }
+}
+
+#[test]
 fn an_old_scene_is_the_same_as_its_new_version() {
     let Some(shared) = shared() else { return };
     let [old, new] = ["scene_v0.6.xml", "scene.xml"]
