@@ -2,7 +2,7 @@
 //!
 //! TODO figures
 
-use limpid_frame::{Frame, Layer, LayerRequest, Statistic};
+use limpid_frame::{Frame, Layer, LayerRequest};
 
 use super::nlm::{Guide, Window, filter};
 use crate::method::{Parameter, Values};
@@ -171,11 +171,15 @@ impl Denoiser for JointNlm {
     }
 
     fn needs(&self) -> LayerRequest {
-        let layers = [Layer::Diffuse, Layer::Specular, Layer::DiffuseAlbedo, Layer::Albedo, Layer::Normal];
-        layers
-            .into_iter()
-            .fold(LayerRequest::beauty(), LayerRequest::with_statistics)
-            .with(Layer::Emission, Statistic::Mean)
+        let layers = [
+            Layer::Diffuse,
+            Layer::Specular,
+            Layer::Emission,
+            Layer::DiffuseAlbedo,
+            Layer::Albedo,
+            Layer::Normal,
+        ];
+        layers.into_iter().fold(LayerRequest::beauty(), LayerRequest::with_statistics)
     }
 
     fn denoise(&self, frame: &Frame) -> Result<Frame, DenoiseError> {
@@ -207,7 +211,7 @@ impl Denoiser for JointNlm {
             out.insert(format!("noisy.{name}"), plane.to_vec());
         }
         let filtered = components.filtered.iter().map(|component| mean_of(&component.buffers)).collect();
-        recombine(&mut out, &components, filtered);
+        components.repaired += recombine(&mut out, &components, filtered);
         let used: Vec<&str> = guides.iter().map(|(layer, _)| layer.name()).collect();
         out.metadata.insert("limpid:denoise".to_owned(), self.record(&components, &used));
         Ok(out)

@@ -1,3 +1,5 @@
+use limpid_frame::Statistic;
+
 use super::*;
 use crate::{Buffers, denoise_buffers};
 
