@@ -32,7 +32,7 @@ pub struct Common {
     #[arg(long, global = true)]
     pub quiet: bool,
     /// Threads to work with [default: all cores]. No picture depends on it.
-    #[arg(long, global = true, value_name = "N", value_parser = values::threads)]
+    #[arg(long, global = true, value_name = "N", value_parser = values::threads, allow_negative_numbers = true)]
     pub threads: Option<usize>,
 }
 
@@ -85,7 +85,7 @@ pub struct Render {
     #[arg(long = "set", value_name = "KEY=VALUE", requires = "denoise", help_heading = "Denoising")]
     pub set: Vec<String>,
     /// Samples per pixel [default: the scene's]. Four times as many halve the noise.
-    #[arg(long, value_name = "N", value_parser = values::spp, help_heading = "Quality")]
+    #[arg(long, value_name = "N", value_parser = values::spp, allow_negative_numbers = true, help_heading = "Quality")]
     pub spp: Option<u32>,
     /// Size of the picture in pixels [default: the scene's].
     #[arg(long, value_name = "WxH", value_parser = values::size, help_heading = "Quality")]
@@ -94,7 +94,13 @@ pub struct Render {
     #[arg(long, value_name = "X,Y,W,H", value_parser = values::crop, help_heading = "Quality")]
     pub crop: Option<Crop>,
     /// Another seed gives independent noise.
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Quality")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        allow_negative_numbers = true,
+        help_heading = "Quality"
+    )]
     pub seed: u64,
     /// Camera to render, where the scene has several [default: its first].
     #[arg(long, value_name = "NAME", help_heading = "Quality")]
@@ -104,13 +110,13 @@ pub struct Render {
     #[arg(long, value_name = "S", value_enum, help_heading = "Quality")]
     pub sampler: Option<SamplerChoice>,
     /// Longest path in edges: 1 shows lights only, 2 direct light [default: the scene's].
-    #[arg(long, value_name = "N", value_parser = values::max_depth, help_heading = "Quality")]
+    #[arg(long, value_name = "N", value_parser = values::max_depth, allow_negative_numbers = true, help_heading = "Quality")]
     pub max_depth: Option<u32>,
     /// Depth from which Russian roulette may end a path: a balance of noise and time [default: the scene's].
-    #[arg(long, value_name = "N", help_heading = "Quality")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Quality")]
     pub rr_depth: Option<u32>,
     /// Upper bound for a sample's radiance: takes fireflies out and light with them, so the picture gets darker.
-    #[arg(long, value_name = "L", value_parser = values::clamp, help_heading = "Quality")]
+    #[arg(long, value_name = "L", value_parser = values::clamp, allow_negative_numbers = true, help_heading = "Quality")]
     pub clamp: Option<f32>,
 }
 

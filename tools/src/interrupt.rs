@@ -1,6 +1,6 @@
 //! Ctrl-C: while a render runs the first one stops it and keeps what is done; any other ends the program at once.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::process;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,7 +18,9 @@ pub fn install(quiet: bool) {
         match &*render {
             Some(progress) if !progress.cancel.swap(true, Relaxed) => {
                 if !quiet {
-                    let _ = writeln!(io::stderr(), "\nstopping; Ctrl-C again to keep nothing");
+                    // On a terminal the line has `^C` and the bar on it.
+                    let begin = if io::stderr().is_terminal() { "\n" } else { "" };
+                    let _ = writeln!(io::stderr(), "{begin}stopping; Ctrl-C again to keep nothing");
                 }
             }
             _ => process::exit(130),

@@ -89,10 +89,11 @@ fn excerpt(error: &SceneError) -> Option<String> {
     let file = File::open(&error.file).ok().filter(|f| f.metadata().is_ok_and(|m| m.is_file()))?;
     let mut lines = BufReader::new(file.take(MAX_SEARCHED)).split(b'\n').skip(line as usize);
     let text = String::from_utf8_lossy(&lines.next()?.ok()?).trim_end().to_owned();
-    if column > text.chars().count() {
+    let length = text.chars().count();
+    if column > length {
         return None; // the file has changed since it was read
     }
-    let begin = column.saturating_sub(MAX_SHOWN / 2);
+    let begin = if length <= MAX_SHOWN { 0 } else { column.saturating_sub(MAX_SHOWN / 2) };
     let shown: String = text.chars().skip(begin).take(MAX_SHOWN).collect();
     let number = error.line.to_string();
     let margin = " ".repeat(number.len());

@@ -170,6 +170,7 @@ impl Report<'_> {
 /// Seconds for people.
 fn duration(seconds: f64) -> String {
     match seconds {
+        s if s < 0.095 => format!("{:.0} ms", 1000.0 * s),
         s if s < 0.95 => format!("{s:.2} s"),
         s if s < 90.0 => format!("{s:.1} s"),
         s if s < 90.0 * 60.0 => format!("{:.0} min", s / 60.0),
