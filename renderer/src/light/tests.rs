@@ -1,6 +1,7 @@
 //! The random numbers are fixed: a test that passes once always passes.
 
 mod density;
+mod gather;
 mod irradiance;
 
 use glam::{DAffine3, DMat3, DVec3};
