@@ -26,13 +26,14 @@ pub struct Cli {
 #[derive(Args, Clone, Debug)]
 pub struct Common {
     /// Print one JSON object on one line of standard output, for scripts.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = 1000)]
     pub json: bool,
     /// Say nothing but errors.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = 1001)]
     pub quiet: bool,
     /// Threads to work with [default: all cores]. No picture depends on it.
-    #[arg(long, global = true, value_name = "N", value_parser = values::threads, allow_negative_numbers = true)]
+    #[arg(long, global = true, value_name = "N", value_parser = values::threads,
+          allow_negative_numbers = true, display_order = 1002)]
     pub threads: Option<usize>,
 }
 
@@ -67,7 +68,8 @@ pub struct Render {
     #[arg(long, value_name = "EV", default_value = "0", allow_negative_numbers = true,
           value_parser = values::exposure, help_heading = "Output")]
     pub exposure: f32,
-    /// Layers to write beside the picture, such as albedo,normal,diffuse.variance,beauty.halves, or `all`.
+    /// Layers to write beside the picture, such as albedo,normal,diffuse.variance,beauty.halves, or `all`
+    /// (a wrong name gets you the list).
     #[arg(long, value_name = "L,…", value_parser = LayerRequest::parse, help_heading = "Output")]
     pub layers: Option<LayerRequest>,
     /// Write every single sample into this folder, a safetensors file a tile: for training and for research.

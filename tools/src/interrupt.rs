@@ -32,3 +32,9 @@ pub fn install(quiet: bool) {
 pub fn stop_gently(progress: &Arc<Progress>) {
     *RENDER.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(progress));
 }
+
+/// Whether Ctrl-C came since then.
+pub fn came() -> bool {
+    let render = RENDER.lock().unwrap_or_else(PoisonError::into_inner);
+    render.as_ref().is_some_and(|progress| progress.cancel.load(Relaxed))
+}

@@ -104,6 +104,9 @@ pub fn png_path(text: &str) -> Result<PathBuf, String> {
 
 /// A path whose extension, if it has one, is `extension`: `-o a.png` would be an EXR that no viewer takes for one.
 fn path_with(text: &str, extension: &str, why: &str) -> Result<PathBuf, String> {
+    if text == "-" {
+        return Err("files appear when they are whole, which standard output cannot do; name a file".into());
+    }
     let path = PathBuf::from(text);
     match path.extension() {
         Some(other) if !other.eq_ignore_ascii_case(extension) => {
@@ -162,6 +165,7 @@ mod tests {
     fn a_frame_is_not_given_the_name_of_a_picture() {
         assert!(exr_path("a.png").expect_err("is a PNG's name").contains("`a.exr`"));
         assert!(png_path("a.jpg").expect_err("is a JPEG's name").contains("`a.png`"));
+        assert!(exr_path("-").expect_err("is no file").contains("name a file"));
         assert_eq!(exr_path("a.EXR"), Ok("a.EXR".into()));
         assert_eq!(exr_path("/dev/null"), Ok("/dev/null".into()));
     }

@@ -85,7 +85,7 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
         pixel: options.pixel,
     };
     report.tell(common)?;
-    if interrupted {
+    if interrupt::came() {
         return Err(CliError::Interrupted { kept: report.kept() });
     }
     Ok(())

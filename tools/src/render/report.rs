@@ -61,11 +61,14 @@ impl Report<'_> {
         }
     }
 
-    /// What is left of an interrupted render.
+    /// What is there after Ctrl-C.
     pub fn kept(&self) -> String {
         let written = self.pictures.names();
         if written.is_empty() {
             return "nothing was to be written".into();
+        }
+        if !self.interrupted {
+            return format!("{} had all samples and is whole", written.join(" and "));
         }
         let noisy = if self.denoise.is_some() { ", not denoised" } else { "" };
         format!("{} with the samples that were done{noisy}", written.join(" and "))
@@ -85,7 +88,13 @@ impl Report<'_> {
 
     fn words(&self, common: &Common) {
         let Seconds { load, prepare, render, denoise, write } = self.seconds;
-        let (width, height, spp) = (self.frame.width(), self.frame.height(), self.settings.spp);
+        let (width, height) = (self.frame.width(), self.frame.height());
+        let spp = match self.settings.spp {
+            spp if self.interrupted => {
+                format!("{:.1} of {spp}", self.counters.paths as f64 / self.frame.len().max(1) as f64)
+            }
+            spp => spp.to_string(),
+        };
         let names = self.pictures.names().join(", ");
         let what = if names.is_empty() { "rendered" } else { &names };
         let speed = self.mrays_per_second().map_or(String::new(), |s| format!(" at {s:.1} Mrays/s"));
@@ -121,6 +130,9 @@ impl Report<'_> {
         let noise = format!("{:.2} % ({interval}; relMSE {relmse:.2e})", percent(relmse));
         if self.denoised().is_some() {
             return format!("noise before denoising: {noise}");
+        }
+        if self.interrupted {
+            return format!("noise: {noise}");
         }
         let (spp, time) = (4 * u64::from(self.settings.spp), duration(4.0 * self.seconds.render));
         format!(
