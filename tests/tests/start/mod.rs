@@ -40,7 +40,6 @@ pub fn call<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = 
 }
 
 /// Calls it with words that are parted by spaces; it must end well.
-#[allow(dead_code, reason = "not every test that starts the program needs it")]
 pub fn done(folder: &Path, line: &str) -> Call {
     let call = call(folder, line.split(' '));
     assert_eq!(call.code, 0, "limpid {line}: {}", call.stderr);
