@@ -75,6 +75,11 @@ impl Prepared {
         &self.effects
     }
 
+    /// Texels of environment maps that are not finite or are negative and count as 0: worth a warning.
+    pub fn bad_texels(&self) -> u64 {
+        self.lights.bad_texels()
+    }
+
     /// Number of triangles, built-in shapes included.
     pub fn triangles(&self) -> usize {
         self.geometry.triangles.len()

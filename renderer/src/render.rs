@@ -22,7 +22,8 @@ const PASS: u32 = 16;
 /// Seen and steered from other threads while a render runs.
 #[derive(Debug, Default)]
 pub struct Progress {
-    /// Set it to stop after what is being traced; every pixel gets at least its first pass.
+    /// Set it to stop after what is being traced. Every pixel gets at least its first pass, except with a recorder: there
+    /// tiles that were not begun stay empty.
     pub cancel: AtomicBool,
     /// Samples done.
     pub samples: AtomicU64,
@@ -87,7 +88,7 @@ pub fn render(
     let tally = Tally::default();
     let mut run = || {
         let mut begin = 0;
-        while begin < settings.spp {
+        while begin < settings.spp && (begin == 0 || !progress.cancel.load(Relaxed)) {
             let end = if recorder.is_some() { settings.spp } else { pass_end(begin).min(settings.spp) };
             pass(scene, settings, progress, recorder, &mut film, begin..end, &tally);
             begin = end;
@@ -101,7 +102,8 @@ pub fn render(
     let interrupted = film.tiles.iter().any(|tile| tile.samples < settings.spp);
     let (counters, rejected, first_rejected) = tally.totals();
     let mut frame = film.develop();
-    describe(scene, settings, rejected, &mut frame);
+    let spp = film.tiles.iter().map(|tile| tile.samples).min().unwrap_or(0);
+    describe(scene, settings, spp, rejected, &mut frame);
     Rendered { frame, halves: film.beauty_halves(), counters, rejected, first_rejected, interrupted }
 }
 
@@ -159,7 +161,11 @@ fn pass(
         settings,
         features: plan.features || recorder.is_some(),
     };
+    let cancelled = || progress.cancel.load(Relaxed);
     tiles.par_iter_mut().with_max_len(1).for_each(|tile| {
+        if recorder.is_some() && cancelled() {
+            return; // a tile's record is whole or not there
+        }
         let batches = || tally.batches.lock().unwrap_or_else(|e| e.into_inner());
         let mut batch = batches().pop().unwrap_or_default();
         let pixels = pixels_of(tile);
@@ -169,7 +175,7 @@ fn pass(
             record.resize(pixels.len() * samples.len(), Sample::ZERO);
         }
         let mut begin = samples.start;
-        while begin < samples.end && (samples.start == 0 || !progress.cancel.load(Relaxed)) {
+        while begin < samples.end && (samples.start == 0 || !cancelled()) {
             let slice = begin..samples.end.min(begin.saturating_add(step));
             let rays = batch.counters.rays + batch.counters.shadow_rays;
             trace(&cx, &mut batch, &pixels, slice.clone());
@@ -200,13 +206,13 @@ fn pixels_of(tile: &Tile) -> Vec<[u32; 2]> {
     (0..tile.height).flat_map(|y| (0..tile.width).map(move |x| [tile.x + x, tile.y + y])).collect()
 }
 
-/// What the picture depends on, beside the scene, goes into its header.
-fn describe(scene: &Prepared, settings: &Settings, rejected: u64, frame: &mut Frame) {
+/// What the picture depends on, beside the scene, goes into its header; `spp` is what every pixel has.
+fn describe(scene: &Prepared, settings: &Settings, spp: u32, rejected: u64, frame: &mut Frame) {
     let effects: Vec<&str> = scene.effects().iter().map(|called| Effect::name(called.effect)).collect();
     let origin = scene.origin;
     for (key, value) in [
         ("limpid:seed", settings.seed.to_string()),
-        ("limpid:spp", settings.spp.to_string()),
+        ("limpid:spp", spp.to_string()),
         ("limpid:effects", effects.join(" ")),
         ("limpid:rejected", rejected.to_string()),
         ("limpid:origin", format!("{} {} {}", origin.x, origin.y, origin.z)),

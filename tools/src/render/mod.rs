@@ -41,6 +41,10 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
     let begin = Instant::now();
     let prepared = with_spinner(common, "preparing the scene", || Prepared::new(&scene, camera))?;
     seconds.prepare = begin.elapsed().as_secs_f64();
+    if prepared.bad_texels() > 0 {
+        let texels = prepared.bad_texels();
+        words::note(common, format_args!("{texels} texels of the environment are negative or not finite and count as 0"));
+    }
     let header = header::of(&scene, camera, &settings, options);
     let effects = effects(&scene);
     let warnings = scene.warnings.len();
