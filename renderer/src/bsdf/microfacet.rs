@@ -1,165 +1,155 @@
-//! Microfacet distributions (Walter et al. 2007) with sampling of visible normals.
+//! Microfacet distributions with sampling of visible normals.
 //!
-//! D is normalised so that ∫ D(m) cos θ_m dm = 1; the shadowing is Smith's, separable: G = G1(wi) G1(wo). Widths
+//! The reflection lobe that all rough models share is f = F D(m) G1(wo) G1(wi) / (4 cos θo cos θi) with m the half
+//! vector (Walter et al. 2007), D normalised so that ∫ D(m) cos θm dm = 1, and Smith's masking, separable. Widths
 //! `alpha` are used as they are, not squared.
 
-use std::f32::consts::PI;
+use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
-use libm::erf;
 use limpid_scenes::Distribution;
 
-/// A distribution with its widths along x and y.
+use super::beckmann;
+
+/// A distribution of facet normals, with its widths along x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Microfacet {
-    /// Its family.
-    pub distribution: Distribution,
-    /// Width along x, positive.
-    pub alpha_x: f32,
-    /// Width along y, positive.
-    pub alpha_y: f32,
+    distribution: Distribution,
+    alpha: Vec2,
 }
 
-/// Below this width the lobe is narrower than `f32` directions resolve.
-pub const SMALLEST_ALPHA: f32 = 1e-4;
+/// Narrower lobes are below what `f32` directions resolve; Mitsuba's bound, too.
+const SMALLEST_ALPHA: f32 = 1e-4;
+/// Beyond any use, but its squares stay in range.
+const LARGEST_ALPHA: f32 = 1e3;
+
+/// What the table of albedos reaches to.
+pub const LARGEST_TABULATED: f32 = 1.0;
+
+/// A direction mirrored at a facet, and what the lobe without its reflectance F is there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reflection {
+    /// Cosine of `wo` to the half vector, in [0, 1]: the argument of F.
+    pub cos_m: f32,
+    /// With which [`Microfacet::sample`] draws `wi`, per steradian.
+    pub pdf: f32,
+    /// f · cos θi / (F · pdf): does not underflow where both do.
+    pub weight: f32,
+}
 
 impl Microfacet {
-    /// Widths are kept from falling under [`SMALLEST_ALPHA`]; a NaN becomes that.
-    pub fn new(distribution: Distribution, alpha_x: f32, alpha_y: f32) -> Self {
-        Self { distribution, alpha_x: alpha_x.max(SMALLEST_ALPHA), alpha_y: alpha_y.max(SMALLEST_ALPHA) }
+    /// Widths are kept within [1e-4, 1e3]; a NaN becomes the smallest.
+    #[inline]
+    pub fn new(distribution: Distribution, alpha_u: f32, alpha_v: f32) -> Self {
+        let alpha = Vec2::new(alpha_u.max(SMALLEST_ALPHA), alpha_v.max(SMALLEST_ALPHA));
+        Self { distribution, alpha: alpha.min(Vec2::splat(LARGEST_ALPHA)) }
     }
 
-    /// Density of normals at `m`, per steradian and per projected area; zero below the surface.
-    pub fn d(&self, m: Vec3) -> f32 {
-        if m.z <= 0.0 {
-            return 0.0;
+    /// The larger width.
+    #[inline]
+    pub fn widest(&self) -> f32 {
+        self.alpha.max_element()
+    }
+
+    /// Family and width, where they are within the table of albedos.
+    pub fn isotropic(&self) -> Option<(Distribution, f32)> {
+        let alpha = self.alpha.x;
+        (alpha == self.alpha.y && alpha <= LARGEST_TABULATED).then_some((self.distribution, alpha))
+    }
+
+    /// Draws `wi` by mirroring `wo` at a visible normal; `None` where it falls below the horizon (light that would have
+    /// gone on to other facets) or `wo` is.
+    #[inline]
+    pub fn sample(&self, wo: Vec3, u: Vec2) -> Option<Vec3> {
+        if wo.z.is_nan() || wo.z <= 0.0 {
+            return None;
         }
-        let (x, y) = (m.x / self.alpha_x, m.y / self.alpha_y);
-        let cos2 = m.z * m.z;
-        let area = PI * self.alpha_x * self.alpha_y;
-        let value = match self.distribution {
-            Distribution::Beckmann => (-(x * x + y * y) / cos2).exp() / (area * cos2 * cos2),
-            Distribution::Ggx => {
-                let denominator = x * x + y * y + cos2;
-                1.0 / (area * denominator * denominator)
+        let m = self.visible_normal(wo, u);
+        let wi = 2.0 * wo.dot(m) * m - wo;
+        (wi.z > 0.0).then_some(wi)
+    }
+
+    /// The lobe for a pair of directions; `None` unless both lie above the surface.
+    ///
+    /// `sample` is followed by this too, so that a direction has one density however it was found.
+    #[inline]
+    pub fn reflection(&self, wo: Vec3, wi: Vec3) -> Option<Reflection> {
+        if !(wo.z > 0.0 && wi.z > 0.0) {
+            return None;
+        }
+        let m = (wo + wi).try_normalize()?;
+        let d = self.d(m);
+        let (masking, pdf) = match self.distribution {
+            Distribution::Ggx => (self.g1(wi), 0.5 * d * self.ggx_visible_share(wo)),
+            Distribution::Beckmann => {
+                // f has Mitsuba's masking, a fit within 0.35 %; the density of the samples has the exact one.
+                let share = beckmann::visible_share(wo.z, self.slope(wo));
+                (self.g1(wi) * self.g1(wo) / (share * wo.z), 0.25 * d * share)
             }
         };
-        if value.is_finite() { value } else { 0.0 }
+        Some(Reflection { cos_m: wo.dot(m).clamp(0.0, 1.0), pdf, weight: masking })
     }
 
-    /// Share of the facets of normal `m` that `v` sees.
-    pub fn g1(&self, v: Vec3, m: Vec3) -> f32 {
-        if v.dot(m) * v.z <= 0.0 {
-            return 0.0;
-        }
-        let slope2 = (v.x * self.alpha_x).powi(2) + (v.y * self.alpha_y).powi(2);
-        if slope2 == 0.0 {
-            return 1.0;
-        }
-        // tan² θ · α², squared cosines by components: no 1 − cos² of a rounded cosine.
-        let tan2_alpha2 = slope2 / (v.z * v.z);
+    /// Density of facet normals at `m`, per steradian of normals and unit of projected area.
+    #[inline]
+    fn d(&self, m: Vec3) -> f32 {
+        let (slope, z2) = (Vec2::new(m.x, m.y) / self.alpha, m.z * m.z);
+        let area = PI * self.alpha.x * self.alpha.y;
         match self.distribution {
-            Distribution::Ggx => 2.0 / (1.0 + (1.0 + tan2_alpha2).sqrt()),
-            Distribution::Beckmann => {
-                // The rational fit of Walter et al., off by less than 0.35 %.
-                let a = 1.0 / tan2_alpha2.sqrt();
-                if a >= 1.6 { 1.0 } else { (3.535 * a + 2.181 * a * a) / (1.0 + 2.276 * a + 2.577 * a * a) }
-            }
-        }
-    }
-
-    /// A normal that `wo` sees, with density [`Self::visible_pdf`]; `wo` lies above the surface.
-    pub fn sample_visible(&self, wo: Vec3, u: Vec2) -> Vec3 {
-        let stretched = Vec3::new(self.alpha_x * wo.x, self.alpha_y * wo.y, wo.z).normalize();
-        let m = match self.distribution {
             Distribution::Ggx => {
-                let h = ggx_visible(stretched, u);
-                Vec3::new(self.alpha_x * h.x, self.alpha_y * h.y, h.z.max(0.0))
+                let stretched = slope.length_squared() + z2;
+                1.0 / (area * stretched * stretched)
             }
             Distribution::Beckmann => {
-                let slope = beckmann_visible_slope(stretched, u);
-                Vec3::new(-self.alpha_x * slope.x, -self.alpha_y * slope.y, 1.0)
+                let tail = (-slope.length_squared() / z2).exp();
+                if tail > 0.0 { tail / (area * z2 * z2) } else { 0.0 } // else 0/0 at the horizon
             }
+        }
+    }
+
+    /// tan θ · alpha · cos θ: how fast the surface seen along `v` rises and falls, over the cosine.
+    #[inline]
+    fn slope(&self, v: Vec3) -> f32 {
+        (Vec2::new(v.x, v.y) * self.alpha).length()
+    }
+
+    /// G1 / (2 cos θ), in a form without quotients of small numbers.
+    #[inline]
+    fn ggx_visible_share(&self, v: Vec3) -> f32 {
+        1.0 / (v.z + (v.z * v.z + (Vec2::new(v.x, v.y) * self.alpha).length_squared()).sqrt())
+    }
+
+    /// Share of the facets turned towards `v` that it sees, by Smith; the same above and below the surface.
+    #[inline]
+    pub fn g1(&self, v: Vec3) -> f32 {
+        let v = Vec3::new(v.x, v.y, v.z.abs());
+        match self.distribution {
+            Distribution::Ggx => 2.0 * v.z * self.ggx_visible_share(v),
+            Distribution::Beckmann => beckmann::g1(v.z, self.slope(v)),
+        }
+    }
+
+    /// A facet normal in proportion to what `wo` sees of it: density D G1 wo·m / cos θo. `wo` lies above the surface.
+    #[inline]
+    pub fn visible_normal(&self, wo: Vec3, u: Vec2) -> Vec3 {
+        // In the space where the surface has width 1; there a normal m becomes alpha · m.
+        let stretched = Vec3::new(self.alpha.x * wo.x, self.alpha.y * wo.y, wo.z).normalize();
+        let h = match self.distribution {
+            Distribution::Ggx => ggx_visible_normal(stretched, u),
+            Distribution::Beckmann => beckmann::visible_normal(stretched, u),
         };
-        m.try_normalize().unwrap_or(Vec3::Z)
-    }
-
-    /// Density of [`Self::sample_visible`] per steradian of normals: D G1 |wo · m| / cos θ_o.
-    pub fn visible_pdf(&self, wo: Vec3, m: Vec3) -> f32 {
-        if wo.z <= 0.0 {
-            return 0.0;
-        }
-        self.d(m) * self.g1(wo, m) * wo.dot(m).max(0.0) / wo.z
+        Vec3::new(self.alpha.x * h.x, self.alpha.y * h.y, h.z).normalize()
     }
 }
 
-/// A normal of the unit-width GGX hemisphere seen from `v`: a point of a spherical cap (Dupuy and Benyoub 2023).
-fn ggx_visible(v: Vec3, u: Vec2) -> Vec3 {
-    let z = (1.0 - u.y) * (1.0 + v.z) - v.z;
-    let sin = (1.0 - z * z).max(0.0).sqrt();
-    let (s, c) = (2.0 * PI * u.x).sin_cos();
-    Vec3::new(sin * c, sin * s, z) + v
-}
-
-/// A slope of the unit-width Beckmann surface seen from `v` (Heitz and d'Eon 2014): the slope along the view by inverting
-/// its cumulative distribution, the one across by a Gaussian.
-fn beckmann_visible_slope(v: Vec3, u: Vec2) -> Vec2 {
-    let sin = v.x.hypot(v.y);
-    if sin == 0.0 || sin < 1e-6 * v.z {
-        // Seen from above: all slopes are visible.
-        let r = (-(1.0 - u.x).ln()).max(0.0).sqrt();
-        let (s, c) = (2.0 * PI * u.y).sin_cos();
-        return Vec2::new(r * c, r * s);
-    }
-    let along = visible_slope_along(f64::from(v.z) / f64::from(sin), f64::from(u.x)) as f32;
-    let across = erf_inv(2.0 * f64::from(u.y).clamp(1e-9, 1.0 - 1e-9) - 1.0) as f32;
-    let (c, s) = (v.x / sin, v.y / sin);
-    Vec2::new(c * along - s * across, s * along + c * across)
-}
-
-/// Solves C(x) = u for the slope x towards the viewer at cotangent `cot`: the density of x is proportional to
-/// (cot − x) exp(−x²) below cot, since a facet of slope x is seen in proportion to cos θ − x sin θ.
-/// With y = erf(x): C ∝ cot (1 + erf x) + exp(−x²)/√π. Bisection guards Newton's steps.
-fn visible_slope_along(cot: f64, u: f64) -> f64 {
-    const INV_SQRT_PI: f64 = 0.564_189_583_547_756_3;
-    let mass = |x: f64| cot * (1.0 + erf(x)) + INV_SQRT_PI * (-x * x).exp();
-    let total = mass(cot);
-    let target = u.clamp(0.0, 1.0 - 1e-12) * total;
-    let (mut low, mut high) = (-6.0f64, cot.min(6.0));
-    let mut x = 0.5 * (low + high).min(0.0);
-    for _ in 0..64 {
-        let error = mass(x) - target;
-        if error > 0.0 {
-            high = x
-        } else {
-            low = x
-        }
-        let slope = 2.0 * INV_SQRT_PI * (cot - x) * (-x * x).exp();
-        let newton = x - error / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        if (next - x).abs() <= 1e-7 * (1.0 + x.abs()) {
-            return next;
-        }
-        x = next;
-    }
-    x
-}
-
-/// Inverse of the error function: Giles' single-precision fit (2010).
-fn erf_inv(y: f64) -> f64 {
-    let w = -((1.0 - y) * (1.0 + y)).ln();
-    #[rustfmt::skip]
-    let fit = if w < 5.0 {
-        [2.81022636e-08, 3.43273939e-07, -3.5233877e-06, -4.39150654e-06, 0.00021858087, -0.00125372503,
-         -0.00417768164, 0.246640727, 1.50140941].iter().fold(0.0, |sum, c| sum * (w - 2.5) + c)
-    } else {
-        [-0.000200214257, 0.000100950558, 0.00134934322, -0.00367342844, 0.00573950773, -0.0076224613,
-         0.00943887047, 1.00167406, 2.83297682].iter().fold(0.0, |sum, c| sum * (w.sqrt() - 3.0) + c)
-    };
-    fit * y
-}
-
-/// The half vector of reflection from `wo` to `wi`, on the upper side; `None` where they cancel.
-pub fn half_vector(wo: Vec3, wi: Vec3) -> Option<Vec3> {
-    (wo + wi).try_normalize().map(|m| if m.z < 0.0 { -m } else { m })
+/// A visible normal of the unit hemisphere, not normalised: `wo` plus a point of the spherical cap that it lights
+/// (Dupuy and Benyoub 2023).
+#[inline]
+fn ggx_visible_normal(wo: Vec3, u: Vec2) -> Vec3 {
+    // Height of the normal, which is that of the cap's point and `wo` together: summed afterwards, it would cancel.
+    let height = (1.0 - u.y) * (1.0 + wo.z);
+    let z = height - wo.z;
+    let sin = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
+    let (sin_phi, cos_phi) = (TAU * u.x).sin_cos();
+    Vec3::new(sin * cos_phi + wo.x, sin * sin_phi + wo.y, height)
 }

@@ -6,20 +6,26 @@
 //! unless both lie above; the caller turns `wo` and `wi` over for two-sided materials.
 
 mod albedo;
+mod beckmann;
 mod conductor;
 mod dielectric;
 mod diffuse;
-pub mod fresnel;
-pub mod microfacet;
+mod fresnel;
+mod microfacet;
 mod plastic;
+mod rough_conductor;
+mod rough_plastic;
 
 use glam::{Vec2, Vec3};
 
 use crate::color::{Rgb, Split};
-pub use conductor::{Conductor, Metal, RoughConductor};
+pub use conductor::{Conductor, Ior};
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
-pub use plastic::{Coating, Plastic};
+pub use microfacet::Microfacet;
+pub use plastic::Plastic;
+pub use rough_conductor::RoughConductor;
+pub use rough_plastic::{Coating, RoughPlastic};
 
 /// A sampled direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,8 +70,8 @@ pub struct BsdfFeatures {
 /// A lobe narrower than this counts as a mirror for the feature layers.
 const NEAR_DELTA_ALPHA: f32 = 0.01;
 
-/// Scattering at one hit.
-#[derive(Clone, Copy, Debug)]
+/// Scattering at one hit. It borrows the tables of its material.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bsdf<'a> {
     /// Lambert.
     Diffuse(Diffuse),
@@ -75,8 +81,10 @@ pub enum Bsdf<'a> {
     RoughConductor(RoughConductor),
     /// Smooth glass.
     Dielectric(Dielectric),
-    /// A coating over a diffuse base.
-    Plastic(Plastic<'a>),
+    /// Smooth coating over a diffuse base.
+    Plastic(Plastic),
+    /// Rough coating over a diffuse base.
+    RoughPlastic(RoughPlastic<'a>),
 }
 
 impl Bsdf<'_> {
@@ -89,6 +97,7 @@ impl Bsdf<'_> {
             Self::RoughConductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, u_lobe),
             Self::Plastic(b) => b.sample(wo, u_lobe, u),
+            Self::RoughPlastic(b) => b.sample(wo, u_lobe, u),
         }
     }
 
@@ -97,9 +106,10 @@ impl Bsdf<'_> {
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
         match self {
             Self::Diffuse(b) => b.eval(wo, wi),
+            Self::Conductor(_) | Self::Dielectric(_) => BsdfEval::ZERO,
             Self::RoughConductor(b) => b.eval(wo, wi),
             Self::Plastic(b) => b.eval(wo, wi),
-            Self::Conductor(_) | Self::Dielectric(_) => BsdfEval::ZERO,
+            Self::RoughPlastic(b) => b.eval(wo, wi),
         }
     }
 
@@ -107,38 +117,45 @@ impl Bsdf<'_> {
     #[inline]
     pub fn has_non_delta(&self) -> bool {
         match self {
-            Self::Diffuse(_) | Self::RoughConductor(_) | Self::Plastic(_) => true,
+            Self::Diffuse(_) | Self::RoughConductor(_) | Self::RoughPlastic(_) => true,
             Self::Conductor(_) | Self::Dielectric(_) => false,
+            Self::Plastic(b) => b.has_base(),
         }
     }
 
-    /// Whether all of it is a mirror or glass, or so nearly that what it shows is a better feature than itself.
+    /// Whether all of it is a mirror or glass, or so nearly that what it shows is a better feature than itself: every
+    /// lobe is delta or has an alpha below 0.01.
+    #[inline]
     pub fn near_delta(&self) -> bool {
         match self {
-            Self::Diffuse(_) | Self::Plastic(_) => false,
-            Self::RoughConductor(b) => b.microfacet.alpha_x.max(b.microfacet.alpha_y) < NEAR_DELTA_ALPHA,
+            Self::Diffuse(_) => false,
             Self::Conductor(_) | Self::Dielectric(_) => true,
+            Self::RoughConductor(b) => b.facets.widest() < NEAR_DELTA_ALPHA,
+            Self::Plastic(b) => !b.has_base(),
+            Self::RoughPlastic(b) => !b.has_base() && b.alpha() < NEAR_DELTA_ALPHA,
         }
     }
 
     /// Albedo and roughness for the feature layers.
     pub fn features(&self, wo: Vec3) -> BsdfFeatures {
-        let (albedo, diffuse_albedo, roughness) = match self {
-            Self::Diffuse(b) => (b.albedo, b.albedo, 1.0),
-            Self::Conductor(b) => (b.metal.reflectance(wo.z.max(0.0)), Rgb::ZERO, 0.0),
-            Self::RoughConductor(b) => {
-                let alpha = b.microfacet.alpha_x.max(b.microfacet.alpha_y);
-                (b.albedo(wo), Rgb::ZERO, alpha.sqrt())
-            }
-            Self::Dielectric(b) => {
-                let f = fresnel::dielectric(wo.z, b.eta).reflectance;
-                (b.reflectance * f + b.transmittance * (1.0 - f), Rgb::ZERO, 0.0)
-            }
-            Self::Plastic(b) => {
-                let (albedo, diffuse) = b.albedo(wo);
-                (albedo, diffuse, 1.0)
-            }
-        };
-        BsdfFeatures { albedo, diffuse_albedo, roughness }
+        match self {
+            Self::Diffuse(b) => BsdfFeatures { albedo: b.albedo, diffuse_albedo: b.albedo, roughness: 1.0 },
+            Self::Conductor(b) => b.features(wo),
+            Self::RoughConductor(b) => b.features(wo),
+            Self::Dielectric(b) => b.features(wo),
+            Self::Plastic(b) => b.features(wo),
+            Self::RoughPlastic(b) => b.features(wo),
+        }
     }
 }
+
+/// Share of the specular lobe in the choice between it and the diffuse one, by the means of their colours, before what
+/// the coating reflects counts; ½ where neither scatters.
+fn specular_share(specular: Rgb, diffuse: Rgb) -> f32 {
+    let (specular, diffuse) = (specular.element_sum().max(0.0), diffuse.element_sum().max(0.0));
+    let share = specular / (specular + diffuse);
+    if share.is_finite() { share } else { 0.5 }
+}
+
+#[cfg(test)]
+mod tests;
