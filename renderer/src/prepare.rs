@@ -66,7 +66,7 @@ impl Prepared {
         drop(triangles);
         let textures = Textures::prepare(scene);
         let materials = Materials::prepare(scene)?;
-        let lights = Lights::new(scene, &geometry, &textures, accel.bounds());
+        let lights = Lights::new(scene, &geometry, &textures, accel.radius());
         Ok(Self { geometry, accel, materials, textures, lights, camera, origin, effects: effects(scene) })
     }
 

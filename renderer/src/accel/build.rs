@@ -21,15 +21,6 @@ impl Boundable for Bounds {
     }
 }
 
-/// A sphere around the whole scene.
-#[derive(Clone, Copy, Debug)]
-pub struct SceneBounds {
-    /// In render space.
-    pub center: DVec3,
-    /// Zero for an empty scene.
-    pub radius: f64,
-}
-
 impl Bounds {
     pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
@@ -47,12 +38,12 @@ impl Bounds {
         d.x * d.y + d.y * d.z + d.z * d.x
     }
 
-    pub fn sphere(&self) -> SceneBounds {
+    /// Half the diagonal; 0 if empty.
+    pub fn radius(&self) -> f64 {
         if self.min.x > self.max.x {
-            return SceneBounds { center: DVec3::ZERO, radius: 0.0 };
+            return 0.0;
         }
-        let (min, max) = (self.min.as_dvec3(), self.max.as_dvec3());
-        SceneBounds { center: 0.5 * (min + max), radius: 0.5 * (max - min).length() }
+        0.5 * (self.max.as_dvec3() - self.min.as_dvec3()).length()
     }
 }
 

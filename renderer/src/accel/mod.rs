@@ -14,7 +14,6 @@ use glam::{DAffine3, Vec3};
 use analytic::Analytics;
 pub use analytic::{Analytic, AnalyticKind};
 use build::Bounds;
-pub use build::SceneBounds;
 use kernel::Tree;
 use triangle::TriangleBlock;
 
@@ -114,9 +113,9 @@ impl Accel {
         }
     }
 
-    /// A sphere around everything; radius 0 for an empty scene.
-    pub fn bounds(&self) -> SceneBounds {
-        self.bounds.sphere()
+    /// Radius of a sphere around everything; 0 for an empty scene.
+    pub fn radius(&self) -> f64 {
+        self.bounds.radius()
     }
 }
 

@@ -4,20 +4,19 @@ use glam::Vec3;
 use limpid_scenes::{Scene, ShapeKind};
 
 use super::{LightAnalytic, LightForm, LightHit, LightId, LightRectangle, LightShape, LightTriangle, Lights};
-use crate::accel::SceneBounds;
 use crate::color::Rgb;
 use crate::geometry::{Geometry, Surface};
 use crate::texture::Textures;
 
 impl Lights {
-    /// The lights of a scene whose shapes are `geometry`.
-    pub fn new(scene: &Scene, geometry: &Geometry, textures: &Textures, bounds: SceneBounds) -> Self {
+    /// The lights of a scene whose shapes are `geometry`; `scene_radius` is that of a sphere around it.
+    pub fn new(scene: &Scene, geometry: &Geometry, textures: &Textures, scene_radius: f64) -> Self {
         let shapes = scene.shapes.iter().enumerate().filter_map(|(index, shape)| {
             let emission = shape.emission.as_ref()?.radiance;
             let form = form(&shape.kind, shape.flip_normals, geometry, index);
             Some(LightShape { shape: index as u32, form, emission })
         });
-        Self::from_shapes(shapes.collect(), &scene.lights, textures, bounds.radius)
+        Self::from_shapes(shapes.collect(), &scene.lights, textures, scene_radius)
     }
 
     /// See [`radiance_at`](Self::radiance_at).

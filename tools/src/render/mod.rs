@@ -17,7 +17,7 @@ use crate::denoise::Denoising;
 use crate::error::CliError;
 use crate::output::Pictures;
 use crate::progress::{with_bar, with_spinner};
-use crate::{interrupt, output, scene, system};
+use crate::{interrupt, output, scene, system, words};
 use records::Records;
 use report::{Report, Seconds};
 
@@ -43,7 +43,10 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
     seconds.prepare = begin.elapsed().as_secs_f64();
     if prepared.bad_texels() > 0 {
         let texels = prepared.bad_texels();
-        words::note(common, format_args!("{texels} texels of the environment are negative or not finite and count as 0"));
+        words::note(
+            common,
+            format_args!("{texels} texels of the environment are negative or not finite and count as 0"),
+        );
     }
     let header = header::of(&scene, camera, &settings, options);
     let effects = effects(&scene);
