@@ -4,7 +4,7 @@
 /// and for a NaN: a distance that is not known means no weight.
 ///
 /// `2^(−x log₂ e)` with the whole part put into the exponent's bits and a polynomial for the rest.
-#[inline]
+#[inline(always)]
 pub(crate) fn exp_neg(x: f32) -> f32 {
     /// Added and taken away again, it rounds to a whole number, which stands in the sum's low bits meanwhile.
     const ROUND: f32 = 12_582_912.0; // 1.5 · 2²³

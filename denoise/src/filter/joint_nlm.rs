@@ -4,7 +4,7 @@
 
 use limpid_frame::{Frame, Layer, LayerRequest};
 
-use super::nlm::{Guide, Window, filter};
+use super::nlm::{Buffer, Guide, Window, filter};
 use crate::method::{Parameter, Values};
 use crate::plane::{Plane, Size, box_mean, map2};
 use crate::wrap::components::{Component, Components, recombine, split};
@@ -32,7 +32,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "k_color",
         doc: "how many standard deviations of noise still count as equal, in the first pass",
-        default: 0.45,
+        default: 0.35,
         min: 0.01,
         max: 100.0,
         integer: false,
@@ -40,7 +40,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "k_feature",
         doc: "the same for features",
-        default: 1.0,
+        default: 1.5,
         min: 0.01,
         max: 100.0,
         integer: false,
@@ -72,7 +72,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "second_k_color",
         doc: "k_color of the second pass",
-        default: 0.7,
+        default: 0.6,
         min: 0.01,
         max: 100.0,
         integer: false,
@@ -193,7 +193,7 @@ impl Denoiser for JointNlm {
             guides.iter().map(|(_, guided)| guided.feature(size, self.k_feature, self.tau)).collect();
 
         for window in self.windows() {
-            let guides: Vec<Guide> = components.filtered.iter().flat_map(crossed).collect();
+            let guides: Vec<Guide> = components.filtered.iter().map(crossed).collect();
             let mut filtered = filter(size, &window, &guides, &features).into_iter();
             for component in &mut components.filtered {
                 component.buffers = filtered.by_ref().take(component.buffers.len()).collect();
@@ -218,14 +218,13 @@ impl Denoiser for JointNlm {
     }
 }
 
-/// Guides of a component: each half filters the other, so that a sample has no part in its own weight.
-fn crossed(component: &Component) -> Vec<Guide<'_>> {
-    let variance = &component.variance;
-    let guide = |mean, targets| Guide { mean, variance, targets };
-    match component.buffers.as_slice() {
-        [a, b] => vec![guide(b, a), guide(a, b)],
-        buffers => buffers.iter().map(|mean| guide(mean, mean)).collect(),
-    }
+/// The guide of a component: each half filters the other, so that a sample has no part in its own weight.
+fn crossed(component: &Component) -> Guide<'_> {
+    let buffers = match component.buffers.as_slice() {
+        [a, b] => vec![Buffer { mean: b, targets: a }, Buffer { mean: a, targets: b }],
+        buffers => buffers.iter().map(|mean| Buffer { mean, targets: mean }).collect(),
+    };
+    Guide { variance: &component.variance, buffers }
 }
 
 /// Variance of either filtered half: half their squared difference, smoothed over 3 x 3 pixels.

@@ -22,6 +22,11 @@ use crate::wrap::repair::{exposure_exponent, fill_non_finite, scale, scale_varia
 /// Added to the albedo before it divides (Bako et al. 2017): what is black stays finite.
 const ALBEDO_FLOOR: f32 = 0.00316;
 
+/// The same where the beauty is filtered as a whole. A lamp has an albedo near zero there: divided by it, what
+/// a lamp's edge leaks into its neighbours becomes a hundred times as bright (0.00316 instead gave 2.1 times
+/// the error over ten frames, 1 gave the same as 0.3 and blurred texture more).
+const WHOLE_FLOOR: f32 = 0.3;
+
 /// What adds up to the beauty.
 const PARTS: [Layer; 3] = [Layer::Diffuse, Layer::Specular, Layer::Emission];
 
@@ -176,7 +181,8 @@ fn component(
 
     let albedo = if albedo == layer { None } else { prefiltered(frame, albedo) };
     let albedo: Option<Vec<Plane>> = albedo.map(|albedo| {
-        let floored = |plane: &Plane| plane.iter().map(|a| a.max(0.0) + ALBEDO_FLOOR).collect();
+        let floor = if layer == Layer::Beauty { WHOLE_FLOOR } else { ALBEDO_FLOOR };
+        let floored = |plane: &Plane| plane.iter().map(|a| a.max(0.0) + floor).collect();
         albedo.mean.iter().map(floored).collect()
     });
     let exponent = exposure_exponent(buffers.iter().flatten().cloned().collect::<Vec<_>>().as_slice());

@@ -2,7 +2,7 @@
 
 use limpid_frame::{Frame, Layer, Statistic};
 
-use crate::filter::nlm::{Feature, Guide, Window, filter};
+use crate::filter::nlm::{Buffer, Feature, Guide, Window, filter};
 use crate::plane::{Plane, Size, map2, squared_gradient, three_tap_mean};
 use crate::wrap::repair::{fill_non_finite, squared};
 
@@ -61,7 +61,8 @@ pub(crate) fn prefiltered(frame: &Frame, layer: Layer) -> Option<Guided> {
     }
 
     let window = Window { radius: 5, patch: 3, k: 1.0, sigma_spatial: f32::INFINITY, average: false };
-    let guide = Guide { mean: &planes[..channels], variance: &variance, targets: &planes };
+    let buffers = vec![Buffer { mean: &planes[..channels], targets: &planes }];
+    let guide = Guide { variance: &variance, buffers };
     let mut filtered = filter(size, &window, &[guide], &[]).remove(0);
     let variance = if with_halves {
         left_noise(&filtered[channels..2 * channels], &filtered[2 * channels..])

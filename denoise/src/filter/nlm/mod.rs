@@ -22,6 +22,7 @@
 //! afresh at each pixel, which costs less than it saves: a running sum would make a pixel depend on where
 //! its tile begins.
 
+mod kernel;
 mod tile;
 
 #[cfg(test)]
@@ -30,7 +31,8 @@ mod tests;
 use rayon::prelude::*;
 
 use crate::plane::{Plane, Size};
-use tile::Tile;
+use kernel::Job;
+use tile::Rect;
 
 /// How far the window and the patch reach, and how strict the weights are.
 #[derive(Clone, Copy, Debug)]
@@ -47,12 +49,17 @@ pub(crate) struct Window {
     pub average: bool,
 }
 
-/// Where colour weights come from, and what they filter.
+/// Where colour weights come from: one picture, or two halves of its samples, which have the same variance.
 pub(crate) struct Guide<'a> {
+    /// V: of each buffer's mean, plane by plane.
+    pub variance: &'a [Plane],
+    pub buffers: Vec<Buffer<'a>>,
+}
+
+/// One of a guide's buffers, and what its weights filter.
+pub(crate) struct Buffer<'a> {
     /// u: any number of planes.
     pub mean: &'a [Plane],
-    /// V: of `mean`, plane by plane.
-    pub variance: &'a [Plane],
     /// t: planes that are filtered with these weights.
     pub targets: &'a [Plane],
 }
@@ -65,15 +72,18 @@ pub(crate) struct Feature {
     pub denominator: Vec<Plane>,
 }
 
-/// Filters the targets of each guide; the answer has their order. The features' distance is shared.
+/// Filters the targets of each buffer of each guide; the answer has their order. The features' distance is
+/// shared by all.
 ///
 /// All planes have `size` and are finite.
 pub(crate) fn filter(size: Size, window: &Window, guides: &[Guide], features: &[Feature]) -> Vec<Vec<Plane>> {
-    let tiles = Tile::all(size);
+    let tiles = Rect::tiles(size);
+    let job = Job { size, window, guides, features };
     let filtered: Vec<Vec<Vec<Plane>>> =
-        tiles.par_iter().map(|tile| tile.filter(size, window, guides, features)).collect();
+        tiles.par_iter().map(|tile| kernel::filter_tile(&job, tile)).collect();
+    let buffers = guides.iter().flat_map(|guide| &guide.buffers);
     let mut out: Vec<Vec<Plane>> =
-        guides.iter().map(|guide| vec![vec![0.0; size.len()]; guide.targets.len()]).collect();
+        buffers.map(|buffer| vec![vec![0.0; size.len()]; buffer.targets.len()]).collect();
     for (tile, parts) in tiles.iter().zip(&filtered) {
         for (out, part) in out.iter_mut().flatten().zip(parts.iter().flatten()) {
             tile.place(size, part, out);

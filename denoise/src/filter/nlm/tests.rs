@@ -33,7 +33,8 @@ fn distance(mean: &[Plane], variance: &[Plane], denominator: &[Plane], k2: f64, 
 struct Slow<'a> {
     size: Size,
     window: &'a Window,
-    guide: &'a Guide<'a>,
+    variance: &'a [Plane],
+    buffer: &'a Buffer<'a>,
     features: &'a [Feature],
 }
 
@@ -59,7 +60,7 @@ impl Slow<'_> {
     }
 
     fn weight(&self, (x, y): (i64, i64), (dx, dy): (i64, i64)) -> f64 {
-        let Guide { mean, variance, .. } = self.guide;
+        let (mean, variance) = (self.buffer.mean, self.variance);
         let pair = |i, j| {
             let q = self.at(i + dx, j + dy).expect("both ends are inside");
             (self.at(i, j).expect("both ends are inside"), q)
@@ -114,15 +115,16 @@ fn the_filter_is_its_formula_in_double_precision() {
         [(1, false, f32::INFINITY, 0.45), (2, true, 2.5, 1.0), (0, true, 4.0, 0.7)]
     {
         let window = Window { radius: 4, patch, k, sigma_spatial, average };
-        let guides = [(&a, &b), (&b, &a)].map(|(mean, targets)| Guide { mean, variance: &variance, targets });
+        let buffers = vec![Buffer { mean: &a, targets: &b }, Buffer { mean: &b, targets: &a }];
+        let guides = [Guide { variance: &variance, buffers }];
         let fast = filter(size, &window, &guides, &features);
-        for (guide, fast) in guides.iter().zip(&fast) {
-            let slow = Slow { size, window: &window, guide, features: &features };
-            for (target, fast) in guide.targets.iter().zip(fast) {
-                for p in 0..size.len() {
+        for (buffer, fast) in guides[0].buffers.iter().zip(&fast) {
+            let slow = Slow { size, window: &window, variance: &variance, buffer, features: &features };
+            for (target, fast) in buffer.targets.iter().zip(fast) {
+                for (p, &value) in fast.iter().enumerate() {
                     let expected = slow.filtered(target, p % size.width, p / size.width);
-                    let error = (f64::from(fast[p]) - expected).abs();
-                    assert!(error <= 1e-5, "{window:?}, pixel {p}: {} for {expected}", fast[p]);
+                    let error = (f64::from(value) - expected).abs();
+                    assert!(error <= 1e-5, "{window:?}, pixel {p}: {value} for {expected}");
                 }
             }
         }
@@ -137,7 +139,7 @@ fn hc39_weights_that_underflow_leave_the_centre() {
     let variance = [vec![1e-6; size.len()]];
     let window = Window { radius: 3, patch: 0, k: 1.0, sigma_spatial: f32::INFINITY, average: false };
     let mean = [mean];
-    let guide = Guide { mean: &mean, variance: &variance, targets: &mean };
+    let guide = Guide { variance: &variance, buffers: vec![Buffer { mean: &mean, targets: &mean }] };
     assert_eq!(filter(size, &window, &[guide], &[])[0][0][4 * 9 + 4], 1.0);
 }
 
@@ -151,9 +153,15 @@ fn a_window_filter_does_not_depend_on_where_its_tiles_begin() {
     let mean = planes(whole, 1, 5);
     let variance = [vec![0.02; whole.len()]];
     let window = Window { radius: 5, patch: 2, k: 0.7, sigma_spatial: 3.0, average: true };
-    let filtered = filter(whole, &window, &[Guide { mean: &mean, variance: &variance, targets: &mean }], &[]);
+    let filtered = filter(
+        whole,
+        &window,
+        &[Guide { variance: &variance, buffers: vec![Buffer { mean: &mean, targets: &mean }] }],
+        &[],
+    );
     let (cut_mean, cut_variance) = ([cut(&mean[0])], [cut(&variance[0])]);
-    let guide = Guide { mean: &cut_mean, variance: &cut_variance, targets: &cut_mean };
+    let guide =
+        Guide { variance: &cut_variance, buffers: vec![Buffer { mean: &cut_mean, targets: &cut_mean }] };
     let shifted = filter(part, &window, &[guide], &[]);
     let expected = cut(&filtered[0][0]);
     let reach = window.radius + 2 * window.patch; // of the border that was cut off
