@@ -1,14 +1,18 @@
-//! Rectangles of pixels, and values over them.
+//! Tiles, and what of the image is copied beside each other for one of them.
 
 use std::ops::Range;
 
 use crate::plane::Size;
 
-/// Side of a tile in pixels. The accumulators of two components in two halves take 256 KiB then.
-const SIDE: usize = 64;
+/// Size of a tile in pixels: wide, because rows are what the loops run over, and low enough for what a tile
+/// needs to stay in a core's second-level cache.
+const TILE: (usize, usize) = (64, 32);
 
-/// What rows of a [`Grid`] are padded to, so that loops over them run in whole blocks.
+/// What rows are padded to, so that loops over them run in whole blocks.
 pub(super) const LANES: usize = 16;
+
+/// A part of a row. Its fixed length is what lets a compiler make one or two instructions of a loop over it.
+pub(super) type Block = [f32; LANES];
 
 /// A rectangle of pixels; what lies in a halo may lie outside the image.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,10 +24,11 @@ pub(super) struct Rect {
 impl Rect {
     /// The tiles of an image.
     pub fn tiles(size: Size) -> Vec<Rect> {
-        let cut = |length: usize| {
-            (0..length).step_by(SIDE).map(move |a| a as isize..(a + SIDE).min(length) as isize)
+        let cut = |length: usize, side: usize| {
+            (0..length).step_by(side).map(move |a| a as isize..(a + side).min(length) as isize)
         };
-        cut(size.height).flat_map(|y| cut(size.width).map(move |x| Rect { x, y: y.clone() })).collect()
+        let rows = cut(size.height, TILE.1);
+        rows.flat_map(|y| cut(size.width, TILE.0).map(move |x| Rect { x, y: y.clone() })).collect()
     }
 
     /// The pixels that have a neighbour at an offset in the image.
@@ -60,12 +65,6 @@ impl Rect {
         start..start + self.width()
     }
 
-    /// Where part of row `y` lies in a plane of this rectangle.
-    pub fn local(&self, y: isize, x: &Range<isize>) -> Range<usize> {
-        let start = (y - self.y.start) as usize * self.width() + (x.start - self.x.start) as usize;
-        start..start + x.len()
-    }
-
     /// Copies a plane of this rectangle into the image's.
     pub fn place(&self, size: Size, part: &[f32], out: &mut [f32]) {
         for (y, row) in self.y.clone().zip(part.chunks_exact(self.width())) {
@@ -77,7 +76,6 @@ impl Rect {
 /// Values over a rectangle, the rows padded to whole blocks of [`LANES`].
 #[derive(Default)]
 pub(super) struct Grid {
-    /// Top left corner.
     x: isize,
     y: isize,
     stride: usize,
@@ -85,33 +83,92 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Makes this cover a rectangle, with the same value everywhere, in the padding too.
-    pub fn reset(&mut self, rect: &Rect, value: f32) {
+    /// Makes this cover a rectangle, with zero everywhere, in the padding too.
+    pub fn cover(&mut self, rect: &Rect) {
         (self.x, self.y) = (rect.x.start, rect.y.start);
         self.stride = rect.width().next_multiple_of(LANES);
         self.values.clear();
-        self.values.resize(self.stride * rect.y.len(), value);
+        self.values.resize(self.stride * rect.y.len(), 0.0);
+    }
+
+    /// Blocks in a row.
+    pub fn blocks(&self) -> usize {
+        self.stride / LANES
+    }
+
+    /// A row with its padding.
+    #[inline(always)]
+    pub fn row(&self, y: isize) -> &[Block] {
+        self.values[(y - self.y) as usize * self.stride..][..self.stride].as_chunks().0
+    }
+
+    /// So many rows, one after the other.
+    #[inline(always)]
+    pub fn rows(&self, y: isize, count: usize) -> &[Block] {
+        self.values[(y - self.y) as usize * self.stride..][..count * self.stride].as_chunks().0
     }
 
     #[inline(always)]
+    pub fn row_mut(&mut self, y: isize) -> &mut [Block] {
+        self.values[(y - self.y) as usize * self.stride..][..self.stride].as_chunks_mut().0
+    }
+
+    /// Makes a row zero outside a range of x.
+    #[inline(always)]
+    pub fn clear_outside(&mut self, y: isize, x: &Range<isize>) {
+        let (start, end) = ((x.start - self.x) as usize, (x.end - self.x) as usize);
+        let row = &mut self.values[(y - self.y) as usize * self.stride..][..self.stride];
+        row[..start].fill(0.0);
+        row[end..].fill(0.0);
+    }
+}
+
+/// Planes of the image around a tile, zero outside the image, with rows long enough for whole blocks.
+pub(super) struct Local<'a> {
+    size: Size,
+    rect: Rect,
+    stride: usize,
+    /// What was copied, in the order of the copies.
+    planes: Vec<&'a [f32]>,
+    values: Vec<f32>,
+}
+
+impl<'a> Local<'a> {
+    /// Nothing yet, of a tile and so many pixels around it.
+    pub fn new(size: Size, tile: &Rect, margin: usize) -> Self {
+        let rect = tile.grown(margin);
+        // A row of blocks may begin anywhere in it and end up to a block late.
+        let stride = rect.width().next_multiple_of(LANES) + LANES;
+        Self { size, rect, stride, planes: Vec::new(), values: Vec::new() }
+    }
+
+    /// Copies a plane, unless it is here already. The answer is its number.
+    pub fn copy(&mut self, plane: &'a [f32]) -> usize {
+        if let Some(number) = self.planes.iter().position(|known| std::ptr::eq(*known, plane)) {
+            return number;
+        }
+        let Size { width, height } = self.size;
+        let image = Rect { x: 0..width as isize, y: 0..height as isize };
+        let inside = self.rect.meet(&image);
+        let first = self.values.len();
+        self.values.resize(first + self.stride * (self.rect.y.len() + 1), 0.0); // a last row to run into
+        for y in inside.y.clone() {
+            let row = &plane[inside.row_in(y, self.size)];
+            let at = first + self.at(inside.x.start, y);
+            self.values[at..][..row.len()].copy_from_slice(row);
+        }
+        self.planes.push(plane);
+        self.planes.len() - 1
+    }
+
     fn at(&self, x: isize, y: isize) -> usize {
-        (y - self.y) as usize * self.stride + (x - self.x) as usize
+        (y - self.rect.y.start) as usize * self.stride + (x - self.rect.x.start) as usize
     }
 
+    /// So many blocks of a plane from a pixel on.
     #[inline(always)]
-    pub fn row(&self, y: isize, x: &Range<isize>) -> &[f32] {
-        &self.values[self.at(x.start, y)..][..x.len()]
-    }
-
-    #[inline(always)]
-    pub fn row_mut(&mut self, y: isize, x: &Range<isize>) -> &mut [f32] {
-        let at = self.at(x.start, y);
-        &mut self.values[at..][..x.len()]
-    }
-
-    /// The whole row with its padding.
-    #[inline(always)]
-    pub fn padded_row(&self, y: isize) -> &[f32] {
-        &self.values[self.at(self.x, y)..][..self.stride]
+    pub fn row(&self, number: usize, (x, y): (isize, isize), blocks: usize) -> &[Block] {
+        let plane = number * self.stride * (self.rect.y.len() + 1);
+        self.values[plane + self.at(x, y)..][..blocks * LANES].as_chunks().0
     }
 }

@@ -1,129 +1,154 @@
 //! The source that every instruction set compiles. Everything is inlined into [`filter_tile`], so that the
 //! caller's instructions are used throughout.
-
-use std::ops::Range;
+//!
+//! Rows are whole blocks of [`LANES`], so that no loop has a remainder; what is outside the image or the tile is
+//! computed from zeros, and cleared or never read. A block is copied before it is worked on and stored as a
+//! whole: through references the compiler cannot know that they do not overlap, and computes value by value
+//! (three times as slow).
 
 use super::Job;
 use crate::exp::exp_neg;
-use crate::filter::nlm::tile::{Grid, LANES, Rect};
-use crate::filter::nlm::{Buffer, Feature, Guide};
-use crate::plane::{Plane, Size};
+use crate::filter::nlm::tile::{Block, Grid, LANES, Local, Rect};
+use crate::plane::Plane;
 
 /// Keeps a quotient finite or infinite, never 0/0, where a variance is zero: equal pixels without noise are
 /// then at distance 0 and others at infinity. Guides are scaled to an ordinary exposure, so that this
 /// constant is far below any variance that matters.
 const TINY: f32 = f32::MIN_POSITIVE;
 
-/// Sums of one buffer over the tile: of the weights, and of each target's weighted differences from the
-/// pixel itself.
-struct Sums {
-    weights: Vec<f32>,
-    targets: Vec<Vec<f32>>,
+/// A guide, a buffer and a feature as numbers of planes in a [`Local`].
+struct Guide {
+    variance: Vec<usize>,
+    buffers: Vec<Buffer>,
+}
+
+/// With the sums over the tile: of the weights, and of each target's weighted differences from the pixel itself.
+struct Buffer {
+    mean: Vec<usize>,
+    targets: Vec<usize>,
+    weights: Grid,
+    sums: Vec<Grid>,
+}
+
+/// Mean, variance and denominator of each channel.
+struct Feature {
+    channels: Vec<[usize; 3]>,
+}
+
+/// One offset of the window.
+struct Offset {
+    dx: isize,
+    dy: isize,
+    /// The pixels with a neighbour there.
+    valid: Rect,
+    /// Those of the tile.
+    part: Rect,
+    /// Where d² is needed: all of the tile, and a patch around it if weights are averaged.
+    wanted: Rect,
 }
 
 /// What is used again for each offset.
 #[derive(Default)]
 struct Scratch {
-    /// The features' and the spatial exponent.
+    /// The features' and the spatial exponent, over the tile.
     exponent: Grid,
     /// Δ² per pixel of each buffer of a guide, zero where an end of it is outside the image.
     pixel: Vec<Grid>,
-    /// d², then the colour weight.
+    /// d², and `exp(−d²)` if weights are averaged.
     patch: Grid,
     /// The colour weight averaged over the patch.
     averaged: Grid,
-    rows: Rows,
-}
-
-/// Rows in the first-level cache.
-#[derive(Default)]
-struct Rows {
-    /// 1 / [k² (V_p + V_q)], channel after channel.
-    scale: Vec<f32>,
+    /// 1 / [k² (V_p + V_q)] of a row, channel after channel.
+    scale: Vec<Block>,
     /// Σ over channels of (V_p + min(V_p, V_q)) / [k² (V_p + V_q)].
-    noise: Vec<f32>,
+    noise: Vec<Block>,
     /// Sums over the height of the patch.
     columns: Vec<f32>,
     /// One over the valid width of the patch.
     share: Vec<f32>,
-    weights: Vec<f32>,
+    row: Vec<Block>,
 }
 
 /// See [`super::filter_tile`].
 #[inline(always)]
 pub(super) fn filter_tile(job: &Job, tile: &Rect) -> Vec<Vec<Plane>> {
-    let buffers = || job.guides.iter().flat_map(|guide| &guide.buffers);
-    // The pixel itself has weight 1: none is left without weights.
-    let zero = |buffer: &Buffer| Sums {
-        weights: vec![1.0; tile.pixels()],
-        targets: vec![vec![0.0; tile.pixels()]; buffer.targets.len()],
-    };
-    let mut sums: Vec<Sums> = buffers().map(zero).collect();
+    let window = job.window;
+    let halo = if window.average { 2 * window.patch } else { window.patch };
+    let mut local = Local::new(job.size, tile, window.radius + halo);
+    let mut guides = copy_guides(job, tile, &mut local);
+    let features = copy_features(job, &mut local);
     let mut scratch = Scratch::default();
-    let radius = job.window.radius as isize;
+    let radius = window.radius as isize;
     for dy in -radius..=radius {
         for dx in -radius..=radius {
             let valid = Rect::with_neighbour(job.size, (dx, dy));
             let part = tile.meet(&valid);
-            if (dx, dy) != (0, 0) && !part.is_empty() {
-                add_offset(job, tile, (&part, &valid), (dx, dy), &mut scratch, &mut sums);
+            if (dx, dy) == (0, 0) || part.is_empty() {
+                continue;
             }
-        }
-    }
-    let answer = buffers().zip(sums).map(|(buffer, sums)| {
-        let Sums { weights, mut targets } = sums;
-        for (sum, target) in targets.iter_mut().zip(buffer.targets) {
-            let own = tile.y.clone().flat_map(|y| &target[tile.row_in(y, job.size)]);
-            for ((sum, weight), own) in sum.iter_mut().zip(&weights).zip(own) {
-                *sum = own + *sum / weight;
+            let wanted = if window.average { tile.grown(window.patch) } else { tile.clone() };
+            let offset = Offset { dx, dy, valid, part, wanted };
+            scratch.exponent.cover(tile);
+            for feature in &features {
+                raise_exponent(feature, &local, tile, &offset, &mut scratch);
             }
-        }
-        targets
-    });
-    answer.collect()
-}
-
-/// Adds the neighbours at one offset to the sums of all buffers. `part` are the tile's pixels among the
-/// `valid` ones, which have a neighbour there.
-#[inline(always)]
-fn add_offset(
-    job: &Job,
-    tile: &Rect,
-    (part, valid): (&Rect, &Rect),
-    (dx, dy): (isize, isize),
-    scratch: &mut Scratch,
-    sums: &mut [Sums],
-) {
-    let step = dy * job.size.width as isize + dx;
-    let near = (dx * dx + dy * dy) as f32 / (2.0 * job.window.sigma_spatial * job.window.sigma_spatial);
-    scratch.exponent.reset(part, near);
-    for feature in job.features {
-        raise_exponent(job.size, feature, part, step, scratch);
-    }
-    let mut sums = sums.iter_mut();
-    for guide in job.guides {
-        pixel_distances(job, guide, (part, valid), step, scratch);
-        for (index, buffer) in guide.buffers.iter().enumerate() {
-            color_weights(job, (part, valid), scratch, index);
-            let Some(sums) = sums.next() else { return }; // there is one for each buffer
-            for y in part.y.clone() {
-                row_weights(job.window.average, y, part, scratch);
-                let weights = &scratch.rows.weights;
-                let here = tile.local(y, &part.x);
-                add(&mut sums.weights[here.clone()], weights);
-                let own = part.row_in(y, job.size);
-                let other = shifted(own.clone(), step);
-                for (sum, target) in sums.targets.iter_mut().zip(buffer.targets) {
-                    add_differences(
-                        &mut sum[here.clone()],
-                        weights,
-                        &target[own.clone()],
-                        &target[other.clone()],
-                    );
+            for guide in &mut guides {
+                pixel_distances(job, guide, &local, &offset, &mut scratch);
+                for (index, buffer) in guide.buffers.iter_mut().enumerate() {
+                    color_weights(job, tile, &offset, &mut scratch, index);
+                    accumulate(job, buffer, &local, tile, &offset, &mut scratch);
                 }
             }
         }
     }
+    guides.into_iter().flat_map(|guide| guide.buffers).map(|buffer| finish(buffer, &local, tile)).collect()
+}
+
+fn copy_guides<'a>(job: &Job<'a>, tile: &Rect, local: &mut Local<'a>) -> Vec<Guide> {
+    let mut copy = |planes: &'a [Plane]| planes.iter().map(|plane| local.copy(plane)).collect::<Vec<_>>();
+    let empty = || {
+        let mut grid = Grid::default();
+        grid.cover(tile);
+        grid
+    };
+    let mut guides = Vec::new();
+    for guide in job.guides {
+        let variance = copy(guide.variance);
+        let buffers = guide.buffers.iter().map(|buffer| Buffer {
+            mean: copy(buffer.mean),
+            targets: copy(buffer.targets),
+            weights: empty(),
+            sums: buffer.targets.iter().map(|_| empty()).collect(),
+        });
+        guides.push(Guide { variance, buffers: buffers.collect() });
+    }
+    guides
+}
+
+fn copy_features<'a>(job: &Job<'a>, local: &mut Local<'a>) -> Vec<Feature> {
+    let copy = |feature: &'a crate::filter::nlm::Feature| {
+        let planes = feature.mean.iter().zip(&feature.variance).zip(&feature.denominator);
+        let channels = planes.map(|((mean, variance), denominator)| {
+            [mean, variance, denominator].map(|plane| local.copy(plane))
+        });
+        Feature { channels: channels.collect() }
+    };
+    job.features.iter().map(copy).collect()
+}
+
+/// The answer of one buffer. The pixel itself has weight 1: none is left without weights.
+fn finish(buffer: Buffer, local: &Local, tile: &Rect) -> Vec<Plane> {
+    let Buffer { targets, weights, sums, .. } = buffer;
+    let answer = targets.iter().zip(&sums).map(|(&target, sums)| {
+        let mut plane = Vec::with_capacity(tile.pixels());
+        for y in tile.y.clone() {
+            let own = local.row(target, (tile.x.start, y), weights.blocks()).as_flattened();
+            let row = own.iter().zip(sums.row(y).as_flattened()).zip(weights.row(y).as_flattened());
+            plane.extend(row.map(|((own, sum), weights)| own + sum / (1.0 + weights)).take(tile.width()));
+        }
+        plane
+    });
+    answer.collect()
 }
 
 // `f32::min` and `max` also say what happens to a NaN, which costs three instructions more each.
@@ -138,193 +163,228 @@ fn max(a: f32, b: f32) -> f32 {
 }
 
 #[inline(always)]
-fn shifted(range: Range<usize>, step: isize) -> Range<usize> {
-    range.start.wrapping_add_signed(step)..range.end.wrapping_add_signed(step)
-}
-
-#[inline(always)]
-fn add(sum: &mut [f32], values: &[f32]) {
-    for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += value;
-    }
-}
-
-/// Adds `w (t_q − t_p)`. Differences, because where all are equal the answer is then exact.
-#[inline(always)]
-fn add_differences(sum: &mut [f32], weights: &[f32], own: &[f32], other: &[f32]) {
-    let n = sum.len();
-    let (weights, own, other) = (&weights[..n], &own[..n], &other[..n]);
-    for i in 0..n {
-        sum[i] += weights[i] * (other[i] - own[i]);
-    }
+fn zeros<T: Copy>(row: &mut Vec<T>, n: usize, zero: T) -> &mut [T] {
+    row.clear();
+    row.resize(n, zero);
+    &mut row[..n]
 }
 
 /// Raises the exponent to Φ² of a feature where that is larger.
 #[inline(always)]
-fn raise_exponent(size: Size, feature: &Feature, part: &Rect, step: isize, scratch: &mut Scratch) {
-    let share = 1.0 / feature.mean.len() as f32;
-    for y in part.y.clone() {
-        let own = part.row_in(y, size);
-        let other = shifted(own.clone(), step);
-        let n = part.width();
-        let row = &mut scratch.rows.weights;
-        row.clear();
-        row.resize(n, 0.0);
-        let channels = feature.mean.iter().zip(&feature.variance).zip(&feature.denominator);
-        for ((mean, variance), denominator) in channels {
-            let row = &mut row[..n];
-            let (u_p, u_q) = (&mean[own.clone()][..n], &mean[other.clone()][..n]);
-            let (v_p, v_q) = (&variance[own.clone()][..n], &variance[other.clone()][..n]);
-            let (d_p, d_q) = (&denominator[own.clone()][..n], &denominator[other.clone()][..n]);
-            for i in 0..n {
-                let difference = u_p[i] - u_q[i];
-                let noise = v_p[i] + min(v_p[i], v_q[i]);
-                row[i] += (difference * difference - noise) / (d_p[i] + d_q[i] + TINY);
+fn raise_exponent(feature: &Feature, local: &Local, tile: &Rect, offset: &Offset, scratch: &mut Scratch) {
+    let share = 1.0 / feature.channels.len() as f32;
+    let n = scratch.exponent.blocks();
+    for y in offset.part.y.clone() {
+        let row = zeros(&mut scratch.row, n, [0.0; LANES]);
+        for channel in &feature.channels {
+            let neighbour = (tile.x.start + offset.dx, y + offset.dy);
+            let [u_p, v_p, d_p] = channel.map(|number| local.row(number, (tile.x.start, y), n));
+            let [u_q, v_q, d_q] = channel.map(|number| local.row(number, neighbour, n));
+            for b in 0..n {
+                let (u_p, v_p, d_p) = (u_p[b], v_p[b], d_p[b]);
+                let (u_q, v_q, d_q) = (u_q[b], v_q[b], d_q[b]);
+                let mut sum = row[b];
+                for i in 0..LANES {
+                    let difference = u_p[i] - u_q[i];
+                    let noise = v_p[i] + min(v_p[i], v_q[i]);
+                    sum[i] += (difference * difference - noise) / (d_p[i] + d_q[i] + TINY);
+                }
+                row[b] = sum;
             }
         }
-        for (exponent, sum) in scratch.exponent.row_mut(y, &part.x).iter_mut().zip(row.iter()) {
-            *exponent = max(*exponent, sum * share);
+        for (exponent, sum) in scratch.exponent.row_mut(y).iter_mut().zip(row.iter()) {
+            let (mut raised, sum) = (*exponent, *sum);
+            for i in 0..LANES {
+                raised[i] = max(raised[i], sum[i] * share);
+            }
+            *exponent = raised;
         }
     }
-}
-
-/// Where d² is needed, and so Δ² a patch further.
-#[inline(always)]
-fn wanted(job: &Job, (part, valid): (&Rect, &Rect)) -> Rect {
-    if job.window.average { part.grown(job.window.patch).meet(valid) } else { part.clone() }
 }
 
 /// Leaves Δ² of each buffer of a guide in `scratch.pixel`. Both halves of the samples have the same variance,
 /// so that what depends on it alone, with its divisions, is computed once for them.
 #[inline(always)]
-fn pixel_distances(job: &Job, guide: &Guide, parts: (&Rect, &Rect), step: isize, scratch: &mut Scratch) {
-    let wanted = wanted(job, parts).grown(job.window.patch);
-    let inner = wanted.meet(parts.1);
-    let n = inner.width();
-    let Scratch { pixel, rows: Rows { scale, noise, .. }, .. } = scratch;
+fn pixel_distances(job: &Job, guide: &Guide, local: &Local, offset: &Offset, scratch: &mut Scratch) {
+    let area = offset.wanted.grown(job.window.patch);
+    let inner = area.meet(&offset.valid);
+    let Scratch { pixel, scale, noise, .. } = scratch;
     pixel.resize_with(guide.buffers.len().max(pixel.len()), Grid::default);
     for grid in &mut pixel[..guide.buffers.len()] {
-        grid.reset(&wanted, 0.0);
+        grid.cover(&area);
     }
+    let n = area.width().div_ceil(LANES);
     let k2 = job.window.k * job.window.k * guide.variance.len() as f32;
-    scale.clear();
-    scale.resize(n * guide.variance.len(), 0.0);
+    zeros(scale, n * guide.variance.len(), [0.0; LANES]);
     for y in inner.y.clone() {
-        let own = inner.row_in(y, job.size);
-        let other = shifted(own.clone(), step);
-        noise.clear();
-        noise.resize(n, 0.0);
-        let noise = &mut noise[..n];
-        for (variance, scale) in guide.variance.iter().zip(scale.chunks_exact_mut(n)) {
-            let (v_p, v_q) = (&variance[own.clone()][..n], &variance[other.clone()][..n]);
-            for i in 0..n {
-                scale[i] = 1.0 / (k2 * (v_p[i] + v_q[i]) + TINY);
-                noise[i] += (v_p[i] + min(v_p[i], v_q[i])) * scale[i];
+        let (own, other) = ((area.x.start, y), (area.x.start + offset.dx, y + offset.dy));
+        let noise = zeros(noise, n, [0.0; LANES]);
+        for (&variance, scale) in guide.variance.iter().zip(scale.chunks_exact_mut(n)) {
+            let (v_p, v_q) = (local.row(variance, own, n), local.row(variance, other, n));
+            for b in 0..n {
+                let (v_p, v_q, mut s, mut sum) = (v_p[b], v_q[b], [0.0; LANES], noise[b]);
+                for i in 0..LANES {
+                    s[i] = 1.0 / (k2 * (v_p[i] + v_q[i]) + TINY);
+                    sum[i] += (v_p[i] + min(v_p[i], v_q[i])) * s[i];
+                }
+                (scale[b], noise[b]) = (s, sum);
             }
         }
         for (buffer, grid) in guide.buffers.iter().zip(pixel.iter_mut()) {
-            let row = &mut grid.row_mut(y, &inner.x)[..n];
-            for (mean, scale) in buffer.mean.iter().zip(scale.chunks_exact(n)) {
-                let (u_p, u_q) = (&mean[own.clone()][..n], &mean[other.clone()][..n]);
-                for i in 0..n {
-                    let difference = u_p[i] - u_q[i];
-                    row[i] += difference * difference * scale[i];
+            let row = grid.row_mut(y);
+            for (row, noise) in row.iter_mut().zip(noise.iter()) {
+                let mut negative = *noise;
+                for value in &mut negative {
+                    *value = -*value;
+                }
+                *row = negative;
+            }
+            for (&mean, scale) in buffer.mean.iter().zip(scale.chunks_exact(n)) {
+                let (u_p, u_q) = (local.row(mean, own, n), local.row(mean, other, n));
+                for b in 0..n {
+                    let (u_p, u_q, scale, mut sum) = (u_p[b], u_q[b], scale[b], row[b]);
+                    for i in 0..LANES {
+                        let difference = u_p[i] - u_q[i];
+                        sum[i] += difference * difference * scale[i];
+                    }
+                    row[b] = sum;
                 }
             }
-            for i in 0..n {
-                row[i] -= noise[i];
-            }
+            grid.clear_outside(y, &inner.x);
         }
     }
 }
 
-/// Leaves d² over the part in `scratch.patch`, or the averaged weights in `scratch.averaged`.
+/// Leaves d² over the tile in `scratch.patch`, or the averaged weights in `scratch.averaged`.
 #[inline(always)]
-fn color_weights(job: &Job, parts: (&Rect, &Rect), scratch: &mut Scratch, buffer: usize) {
+fn color_weights(job: &Job, tile: &Rect, offset: &Offset, scratch: &mut Scratch, buffer: usize) {
     let patch = job.window.patch;
-    let Scratch { pixel, patch: distance, averaged, rows, .. } = scratch;
-    let part = parts.0;
-    if !job.window.average {
-        distance.reset(part, 0.0);
-        box_mean(&pixel[buffer], distance, parts, patch, rows);
-        return;
-    }
-    let wanted = wanted(job, parts);
-    distance.reset(&part.grown(patch), 0.0);
-    box_mean(&pixel[buffer], distance, (&wanted, parts.1), patch, rows);
-    for y in wanted.y.clone() {
-        for d in distance.row_mut(y, &wanted.x) {
-            *d = exp_neg(max(*d, 0.0));
+    let Scratch { pixel, patch: distance, averaged, columns, share, .. } = scratch;
+    distance.cover(&offset.wanted);
+    let inner = offset.wanted.meet(&offset.valid);
+    box_mean(&pixel[buffer], distance, (&offset.wanted, &inner), offset, patch, columns, share);
+    if job.window.average {
+        for y in inner.y.clone() {
+            for block in distance.row_mut(y) {
+                let mut weights = *block;
+                for weight in &mut weights {
+                    *weight = exp_neg(max(*weight, 0.0));
+                }
+                *block = weights;
+            }
+            distance.clear_outside(y, &inner.x);
         }
+        averaged.cover(tile);
+        box_mean(distance, averaged, (tile, &offset.part), offset, patch, columns, share);
     }
-    averaged.reset(part, 0.0);
-    box_mean(distance, averaged, parts, patch, rows);
 }
 
-/// Mean of `from` over the patch around each pixel of a part, over as much of it as is valid; `from` is
-/// zero elsewhere and reaches just a patch beyond the part.
+/// Mean of `from` over the patch around the pixels of the `inner` rows of an area, over as much of it as is
+/// valid; `from` is zero elsewhere and reaches just a patch beyond the area.
 #[inline(always)]
-fn box_mean(from: &Grid, to: &mut Grid, (part, valid): (&Rect, &Rect), patch: usize, rows: &mut Rows) {
+fn box_mean(
+    from: &Grid,
+    to: &mut Grid,
+    (area, inner): (&Rect, &Rect),
+    offset: &Offset,
+    patch: usize,
+    columns: &mut Vec<f32>,
+    share: &mut Vec<f32>,
+) {
     let reach = patch as isize;
-    let inside = |at: isize, range: &Range<isize>| {
-        ((at + reach + 1).min(range.end) - (at - reach).max(range.start)) as f32
+    // At least one, also where nothing is valid and the sum is not used.
+    let inside = |at: isize, range: &std::ops::Range<isize>| {
+        ((at + reach + 1).min(range.end) - (at - reach).max(range.start)).max(1) as f32
     };
-    let Rows { columns, share, .. } = rows;
-    share.clear();
-    for x in part.x.clone() {
-        share.push(1.0 / inside(x, &valid.x));
+    let share = zeros(share, to.blocks() * LANES, 0.0);
+    for (x, share) in area.x.clone().zip(share.iter_mut()) {
+        *share = 1.0 / inside(x, &offset.valid.x);
     }
+    let share = share.as_chunks::<LANES>().0;
     let side = 2 * patch + 1;
-    let width = part.width();
-    columns.clear();
-    columns.resize((width + side).next_multiple_of(LANES) + LANES, 0.0);
-    for y in part.y.clone() {
-        for start in (0..(width + side - 1).next_multiple_of(LANES)).step_by(LANES) {
+    let columns = zeros(columns, from.blocks() * LANES + side.next_multiple_of(LANES), 0.0);
+    for y in inner.y.clone() {
+        let rows = from.rows(y - reach, side);
+        for (b, columns) in columns.as_chunks_mut().0.iter_mut().enumerate().take(from.blocks()) {
             let mut sum = [0.0; LANES];
-            for row in y - reach..=y + reach {
-                let from = &from.padded_row(row)[start..][..LANES];
+            for row in rows.chunks_exact(from.blocks()) {
+                let row = row[b];
                 for i in 0..LANES {
-                    sum[i] += from[i];
+                    sum[i] += row[i];
                 }
             }
-            columns[start..][..LANES].copy_from_slice(&sum);
+            *columns = sum;
         }
-        let share_of_rows = 1.0 / inside(y, &valid.y);
-        let to = to.row_mut(y, &part.x);
-        let blocks = to.chunks_mut(LANES).zip(share.chunks(LANES));
-        for (block, (to, share)) in blocks.enumerate() {
+        let share_of_rows = 1.0 / inside(y, &offset.valid.y);
+        for (b, (to, share)) in to.row_mut(y).iter_mut().zip(share).enumerate() {
             let mut sum = [0.0; LANES];
             for k in 0..side {
-                let columns = &columns[block * LANES + k..][..LANES];
+                let columns: &[f32] = &columns[b * LANES + k..][..LANES];
                 for i in 0..LANES {
                     sum[i] += columns[i];
                 }
             }
-            for ((to, share), sum) in to.iter_mut().zip(share).zip(&sum) {
-                *to = sum * share * share_of_rows;
+            let share = *share;
+            for i in 0..LANES {
+                sum[i] *= share[i] * share_of_rows;
             }
+            *to = sum;
         }
     }
 }
 
-/// Leaves the weights of one row of the part in `scratch.rows.weights`.
+/// Adds the neighbours at an offset to the sums of a buffer.
 #[inline(always)]
-fn row_weights(average: bool, y: isize, part: &Rect, scratch: &mut Scratch) {
-    let Scratch { exponent, patch, averaged, rows: Rows { weights, .. }, .. } = scratch;
-    let n = part.width();
-    let exponent = &exponent.row(y, &part.x)[..n];
-    weights.clear();
-    weights.resize(n, 0.0);
-    let weights = &mut weights[..n];
-    if average {
-        let color = &averaged.row(y, &part.x)[..n];
-        for i in 0..n {
-            weights[i] = min(color[i], exp_neg(exponent[i]));
+fn accumulate(
+    job: &Job,
+    buffer: &mut Buffer,
+    local: &Local,
+    tile: &Rect,
+    offset: &Offset,
+    scratch: &mut Scratch,
+) {
+    let Offset { dx, dy, part, .. } = offset;
+    let sigma = job.window.sigma_spatial;
+    let near = (dx * dx + dy * dy) as f32 / (2.0 * sigma * sigma);
+    let Scratch { exponent, patch, averaged, row, .. } = scratch;
+    let n = exponent.blocks();
+    for y in part.y.clone() {
+        let row = zeros(row, n, [0.0; LANES]);
+        let color = if job.window.average { averaged.row(y) } else { patch.row(y) };
+        for ((row, color), exponent) in row.iter_mut().zip(color).zip(exponent.row(y)) {
+            let (color, exponent, mut weights) = (*color, *exponent, [0.0; LANES]);
+            for i in 0..LANES {
+                let exponent = max(exponent[i], near);
+                weights[i] = if job.window.average {
+                    min(color[i], exp_neg(exponent))
+                } else {
+                    exp_neg(max(color[i], exponent))
+                };
+            }
+            *row = weights;
         }
-    } else {
-        let color = &patch.row(y, &part.x)[..n];
-        for i in 0..n {
-            weights[i] = exp_neg(max(color[i], exponent[i]));
+        // Where there is no neighbour, there is no weight.
+        let flat = row.as_flattened_mut();
+        flat[..(part.x.start - tile.x.start) as usize].fill(0.0);
+        flat[(part.x.end - tile.x.start) as usize..].fill(0.0);
+        for (sum, weights) in buffer.weights.row_mut(y).iter_mut().zip(row.iter()) {
+            let (mut total, weights) = (*sum, *weights);
+            for i in 0..LANES {
+                total[i] += weights[i];
+            }
+            *sum = total;
+        }
+        for (sum, &target) in buffer.sums.iter_mut().zip(&buffer.targets) {
+            let own = local.row(target, (tile.x.start, y), n);
+            let other = local.row(target, (tile.x.start + dx, y + dy), n);
+            for (b, sum) in sum.row_mut(y).iter_mut().enumerate() {
+                let (own, other, weights, mut total) = (own[b], other[b], row[b], *sum);
+                // Differences, because where all are equal the answer is then exact.
+                for i in 0..LANES {
+                    total[i] += weights[i] * (other[i] - own[i]);
+                }
+                *sum = total;
+            }
         }
     }
 }
