@@ -56,6 +56,20 @@ fn a_density_off_by_three_per_cent_is_found() {
 }
 
 #[test]
+fn a_horizon_across_the_cells_is_no_difference() {
+    // A lobe leaning to the horizon, which cuts it, so that some cells have no more than a corner above.
+    for tilt in [0.9f32, 1.2, 1.4] {
+        let (sin, cos) = tilt.sin_cos();
+        let turn = |w: Vec3| Vec3::new(cos * w.x + sin * w.z, w.y, cos * w.z - sin * w.x);
+        let back = |w: Vec3| cos * w.z + sin * w.x;
+        assert_chi2(
+            |_, u| Some(turn(lobe(u, 8.0))).filter(|w| w.z > 0.0),
+            |w| if w.z > 0.0 { 9.0 / TAU * back(w).max(0.0).powf(8.0) } else { 0.0 },
+        );
+    }
+}
+
+#[test]
 fn draws_where_the_density_is_zero_are_found() {
     // One draw in a thousand goes below the horizon.
     let draw = |lobe: f32, u: Vec2| Some(if lobe < 1e-3 { -hemisphere(u) } else { hemisphere(u) });
