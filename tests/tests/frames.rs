@@ -46,7 +46,8 @@ fn halves_of_a_sobol_render_are_uncorrelated() {
         render(&prepared, &settings, &Progress::default(), None).frame
     };
     let (first, second) = (frame(1), frame(2));
-    let green = |frame: &limpid_frame::Frame, half| frame.layer(Layer::Beauty, half).expect("asked for")[1].to_vec();
+    let green =
+        |frame: &limpid_frame::Frame, half| frame.layer(Layer::Beauty, half).expect("asked for")[1].to_vec();
     let (a1, b1) = (green(&first, Statistic::A), green(&first, Statistic::B));
     let (a2, b2) = (green(&second, Statistic::A), green(&second, Statistic::B));
     let correlation = sign_correlation([&a1, &b1], [&a2, &b2]);
@@ -55,7 +56,8 @@ fn halves_of_a_sobol_render_are_uncorrelated() {
 
     // The same test sees a planted correlation of 0.05: b takes over a share of a's deviation.
     let share = 0.05 / (1.0f32 - 0.05 * 0.05).sqrt();
-    let planted: Vec<f32> = b1.iter().zip(&a1).zip(&a2).map(|((b, a), other)| b + share * (a - other)).collect();
+    let planted: Vec<f32> =
+        b1.iter().zip(&a1).zip(&a2).map(|((b, a), other)| b + share * (a - other)).collect();
     let planted = sign_correlation([&a1, &planted], [&a2, &b2]);
     println!("with a planted correlation of 0.05: {planted:.4}");
     assert!(planted > 0.015, "{planted}");
@@ -98,7 +100,11 @@ fn records_add_up_to_the_layers() {
         }
     };
     let recorded = render(&prepared, &settings, &Progress::default(), Some(&recorder)).frame;
-    assert_eq!(recorded, render(&prepared, &settings, &Progress::default(), None).frame, "records change no bit");
+    assert_eq!(
+        recorded,
+        render(&prepared, &settings, &Progress::default(), None).frame,
+        "records change no bit"
+    );
     let sums = sums.into_inner().expect("no test thread panics");
     for (l, &layer) in layers.iter().enumerate() {
         for (c, plane) in recorded.layer(layer, Statistic::Mean).expect("asked for").iter().enumerate() {

@@ -63,9 +63,7 @@ fn wrong_pixels(scene: &Scene) -> usize {
     let rendered = rendered(scene, |s| (s.spp, s.max_depth) = (16, Some(2)));
     let plane = rendered.frame.channel("G").expect("beauty");
     let inside = |x: usize| (16..48).contains(&x);
-    (0..64 * 64)
-        .filter(|i| plane[*i] != if inside(i % 64) && inside(i / 64) { 0.5 } else { 1.0 })
-        .count()
+    (0..64 * 64).filter(|i| plane[*i] != if inside(i % 64) && inside(i / 64) { 0.5 } else { 1.0 }).count()
 }
 
 #[test]
@@ -109,7 +107,8 @@ fn jittered_icosphere() -> (Vec<DVec3>, Vec<[u32; 3]>) {
         for j in i + 1..12 {
             for k in j + 1..12 {
                 if near(i, j) && near(j, k) && near(i, k) {
-                    let outwards = (vertices[j] - vertices[i]).cross(vertices[k] - vertices[i]).dot(vertices[i]) > 0.0;
+                    let outwards =
+                        (vertices[j] - vertices[i]).cross(vertices[k] - vertices[i]).dot(vertices[i]) > 0.0;
                     faces.push(if outwards { [i, j, k] } else { [i, k, j] }.map(|v| v as u32));
                 }
             }
@@ -159,12 +158,13 @@ fn hc03_watertight_edges_vertices() {
         let rays: Vec<WorldRay> = (0..RAYS)
             .map(|k| {
                 let mut u = || uniform(&mut state);
-                let o = eye + loop {
-                    let p = DVec3::new(u(), u(), u()) * 2.0 - 1.0;
-                    if p.length_squared() < 1.0 {
-                        break 0.3 * p;
-                    }
-                };
+                let o = eye
+                    + loop {
+                        let p = DVec3::new(u(), u(), u()) * 2.0 - 1.0;
+                        if p.length_squared() < 1.0 {
+                            break 0.3 * p;
+                        }
+                    };
                 let face = faces[(u() * faces.len() as f64) as usize];
                 let (a, b) = (at(face[0]), at(face[1]));
                 let target = match k % 4 {
