@@ -47,17 +47,6 @@ pub enum DenoiseError {
         /// Whether it has to be a whole number.
         integer: bool,
     },
-    /// The frame lacks layers without which the method does not work.
-    #[error(
-        "{method} needs layers that the frame lacks: {}\n  = help: render with `--denoise {method}`, or add `--layers {}`",
-        missing.join(", "), missing.join(",")
-    )]
-    MissingLayers {
-        /// The method.
-        method: &'static str,
-        /// The names of the layers.
-        missing: Vec<String>,
-    },
     /// The frame lacks a channel that every picture has.
     #[error(transparent)]
     Frame(#[from] FrameError),

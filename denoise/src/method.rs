@@ -153,3 +153,63 @@ impl Values {
         self.get(name) as usize
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(method: &str, assignments: &[&str]) -> Result<Box<dyn Denoiser>, DenoiseError> {
+        let assignments: Vec<String> = assignments.iter().map(|text| (*text).to_owned()).collect();
+        by_name(method)?.configure(&assignments)
+    }
+
+    fn refusal(assignment: &str) -> String {
+        set("joint-nlm", &[assignment]).err().expect("must be refused").to_string()
+    }
+
+    #[test]
+    fn every_method_is_found_by_its_name_and_names_itself() {
+        for method in methods() {
+            assert_eq!(by_name(method.name).expect("is listed").denoiser().name(), method.name);
+        }
+    }
+
+    #[test]
+    fn every_default_is_within_its_range() {
+        for method in methods() {
+            let defaults: Vec<String> =
+                method.parameters.iter().map(|p| format!("{}={}", p.name, p.default)).collect();
+            assert!(method.configure(&defaults).is_ok(), "{}", method.name);
+        }
+    }
+
+    #[test]
+    fn an_unknown_method_lists_the_known_ones() {
+        let error = by_name("joint_nlm").expect_err("is unknown").to_string();
+        assert!(error.starts_with("unknown method `joint_nlm`; known, nearest first: joint-nlm"), "{error}");
+    }
+
+    #[test]
+    fn a_wrong_assignment_is_refused_with_a_cure() {
+        for text in ["patch", "patch=", "patch=many", "=", ""] {
+            assert!(refusal(text).ends_with("write key=value with a number, such as `radius=10`"), "{text}");
+        }
+        assert!(
+            refusal("patches=1")
+                .starts_with("joint-nlm: unknown parameter `patches`; known, nearest first: patch")
+        );
+        let range = "joint-nlm: `patch=2.5` is out of range: it goes from 0 to 8, in whole numbers";
+        assert_eq!(refusal("patch=2.5"), range);
+        for text in ["radius=0", "radius=33", "k_color=NaN", "tau=inf", "sigma_spatial=-1"] {
+            assert!(refusal(text).contains(" is out of range: it goes from "), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_set_stands_in_the_answer_and_the_last_of_a_name_holds() {
+        let denoiser = set("joint-nlm", &["patch=1", " radius = 5 ", "patch=2"]).expect("is right");
+        let buffers = crate::Buffers { width: 1, height: 1, color: &[0.5; 3], ..Default::default() };
+        let frame = denoiser.denoise(&buffers.to_frame().expect("fits")).expect("has a beauty");
+        assert!(frame.metadata["limpid:denoise"].starts_with("joint-nlm radius=5 patch=2 "));
+    }
+}
