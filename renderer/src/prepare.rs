@@ -60,6 +60,15 @@ impl Prepared {
         let camera = scene.cameras[camera].clone();
         let origin = camera.world_from_camera.w_axis.truncate();
         let geometry = Geometry::new(scene, origin);
+        if let Some(shape) = geometry.out_of_range() {
+            let shape = &scene.shapes[shape];
+            return Err(PrepareError {
+                place: shape.place.clone(),
+                element: format!("shape \"{}\"", shape.name),
+                problem: "a coordinate relative to the camera is beyond 3.4e38".into(),
+                help: "check the transforms of the shape and of the camera, or scale the scene down".into(),
+            });
+        }
         let triangles: Vec<_> =
             (0..geometry.triangles.len() as u32).map(|prim| geometry.corners(prim)).collect();
         let accel = Accel::build(&triangles, &geometry.analytics);

@@ -82,6 +82,7 @@ pub fn render(
     };
     let mut film = Film::new(origin, width, height, settings.tile, &settings.layers);
     progress.samples.store(0, Relaxed);
+    progress.rays.store(0, Relaxed);
     progress.total.store(u64::from(width) * u64::from(height) * u64::from(settings.spp), Relaxed);
 
     let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads.unwrap_or(0)).build();
@@ -96,7 +97,7 @@ pub fn render(
     };
     match pool {
         Ok(pool) => pool.install(run),
-        Err(_) => run(), // no thread to be had: this one does
+        Err(_) => run(), // no threads to be had: the global pool does
     }
 
     let interrupted = film.tiles.iter().any(|tile| tile.samples < settings.spp);
@@ -111,7 +112,7 @@ pub fn render(
 fn pass_end(begin: u32) -> u32 {
     match begin {
         0 => 2,
-        _ => (2 * begin).min(begin.saturating_add(PASS)),
+        _ => begin.saturating_mul(2).min(begin.saturating_add(PASS)),
     }
 }
 
@@ -125,8 +126,8 @@ struct Tally {
 }
 
 impl Tally {
-    fn reject(&self, count: u64, [x, y]: [u32; 2]) {
-        self.rejected.fetch_add(count, Relaxed);
+    fn reject(&self, [x, y]: [u32; 2]) {
+        self.rejected.fetch_add(1, Relaxed);
         let key = (u64::from(y) << 32 | u64::from(x)) + 1;
         let _ = self
             .first_rejected
@@ -182,7 +183,7 @@ fn pass(
             for (k, (path, sample)) in batch.paths.iter().zip(&mut batch.samples).enumerate() {
                 let (pixel, index) = (k / slice.len(), slice.start + (k % slice.len()) as u32);
                 if accumulate(&cx, path, sample) {
-                    tally.reject(1, pixels[pixel]);
+                    tally.reject(pixels[pixel]);
                 }
                 tile.add(plan, pixel, index, sample);
                 if recorder.is_some() {
@@ -206,7 +207,7 @@ fn pixels_of(tile: &Tile) -> Vec<[u32; 2]> {
     (0..tile.height).flat_map(|y| (0..tile.width).map(move |x| [tile.x + x, tile.y + y])).collect()
 }
 
-/// What the picture depends on, beside the scene, goes into its header; `spp` is what every pixel has.
+/// What is known here of the picture goes into its header; `spp` is what every pixel has.
 fn describe(scene: &Prepared, settings: &Settings, spp: u32, rejected: u64, frame: &mut Frame) {
     let effects: Vec<&str> = scene.effects().iter().map(|called| Effect::name(called.effect)).collect();
     let origin = scene.origin;

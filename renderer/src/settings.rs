@@ -29,7 +29,7 @@ pub struct Settings {
     pub frame: u32,
     /// Where the random decisions come from.
     pub sampler: Sampler,
-    /// Longest path in edges (1: lights only, 2: direct light); unlimited where absent.
+    /// Longest path in edges (0: black, 1: lights only, 2: direct light); unlimited where absent.
     pub max_depth: Option<u32>,
     /// Depth from which Russian roulette may end a path.
     pub rr_depth: u32,

@@ -38,6 +38,10 @@ impl Bounds {
         d.x * d.y + d.y * d.z + d.z * d.x
     }
 
+    pub fn is_finite(&self) -> bool {
+        self.min.is_finite() && self.max.is_finite()
+    }
+
     /// Half the diagonal; 0 if empty.
     pub fn radius(&self) -> f64 {
         if self.min.x > self.max.x {

@@ -85,11 +85,13 @@ fn ratio(a: f32, b: f32) -> f32 {
     a.max(f32::MIN_POSITIVE) / b.max(f32::MIN_POSITIVE)
 }
 
-/// Fraction of diffuse light that a smooth boundary reflects, ∫ 2 F(cos) cos dcos, within 0.5 %: the fits of Egan
-/// and Hilgeman (1973) below 1 and of d'Eon and Irving (2011, section 4.1) above.
+/// Fraction of diffuse light that a smooth boundary reflects, ∫ 2 F(cos) cos dcos, within 0.5 % for the indices of real
+/// materials: the fit of d'Eon and Irving (2011, section 4.1) above 1. Below 1 it follows from that exactly, since both
+/// sides transmit alike but for the factor η². (The fit of Egan and Hilgeman (1973), which Mitsuba takes there,
+/// is off by half a per cent at η = 1/2.4 and exceeds 1 from 1/3.9 on.)
 pub fn diffuse_reflectance(eta: f32) -> f32 {
     if eta < 1.0 {
-        return -1.4399 * eta * eta + 0.7099 * eta + 0.6681 + 0.0636 / eta;
+        return 1.0 - (1.0 - diffuse_reflectance(1.0 / eta)) * eta * eta;
     }
     let x = 1.0 / eta;
     0.919_317 + x * (-3.4793 + x * (6.75335 + x * (-7.80989 + x * (4.98554 - x * 1.36881))))

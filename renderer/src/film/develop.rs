@@ -26,7 +26,8 @@ impl Moments {
             Statistic::Variance => match self.squares {
                 Some((square, shift)) if n > 1.0 => {
                     let deviation = self.sums[0] + self.sums[1] - n * shift;
-                    ((square - deviation * deviation / n).max(0.0) / (n - 1.0) / n) as f32
+                    ((square - deviation * deviation / n).max(0.0) / (n - 1.0) / n).min(f32::MAX.into())
+                        as f32
                 }
                 _ => -1.0,
             },

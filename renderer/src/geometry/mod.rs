@@ -128,6 +128,19 @@ impl Geometry {
         self.analytics.push(Analytic { kind, frame });
     }
 
+    /// The first shape, if any, with a coordinate that leaves the range of `f32` in render space.
+    pub fn out_of_range(&self) -> Option<usize> {
+        self.shapes.iter().position(|shape| {
+            let prims = shape.first_prim..shape.first_prim + shape.prims;
+            let beyond =
+                |prim: u32| match self.analytics.get((prim as usize).wrapping_sub(self.triangles.len())) {
+                    Some(analytic) => !analytic.bounds().is_finite(),
+                    None => self.corners(prim).iter().any(|p| !p.is_finite()),
+                };
+            prims.into_iter().any(beyond)
+        })
+    }
+
     /// The shape that a primitive belongs to.
     #[inline]
     pub fn shape_of(&self, prim: u32) -> u32 {
@@ -167,14 +180,17 @@ impl Geometry {
     #[inline]
     pub fn is_turned(&self, prim: u32) -> bool {
         let shape = &self.shapes[self.triangle_shapes[prim as usize] as usize];
-        let by_normals = self.corner_normals(prim, shape).map(|[a, b, c]| {
-            let [p, q, r] = self.corners(prim).map(Vec3::as_dvec3);
-            (q - p).cross(r - p).dot((a + b + c).as_dvec3())
-        });
-        match by_normals {
-            Some(side) if side != 0.0 => side < 0.0,
-            _ => shape.orientation < 0.0,
-        }
+        let [p, q, r] = self.corners(prim).map(Vec3::as_dvec3);
+        turned((q - p).cross(r - p), self.corner_normals(prim, shape), shape)
+    }
+}
+
+/// See [`Geometry::is_turned`]; `cross` points to the side from which the triangle runs counter-clockwise.
+#[inline]
+fn turned(cross: DVec3, normals: Option<[Vec3; 3]>, shape: &Shape) -> bool {
+    match normals.map(|[a, b, c]| cross.dot((a + b + c).as_dvec3())) {
+        Some(side) if side != 0.0 => side < 0.0,
+        _ => shape.orientation < 0.0,
     }
 }
 

@@ -78,14 +78,11 @@ impl Geometry {
 
         let winding = cross.normalize_or_zero().as_vec3();
         let (w, u, v) = (1.0 - hit.u - hit.v, hit.u, hit.v);
-        let (ng, ns) = match self.corner_normals(hit.prim, shape) {
-            Some([na, nb, nc]) => {
-                let turned = winding.dot(na + nb + nc) < 0.0
-                    || (winding.dot(na + nb + nc) == 0.0 && shape.orientation < 0.0);
-                let ng = if turned { -winding } else { winding };
-                (ng, (w * na + u * nb + v * nc).try_normalize().unwrap_or(ng))
-            }
-            None => (winding * shape.orientation, winding * shape.orientation),
+        let normals = self.corner_normals(hit.prim, shape);
+        let ng = if super::turned(cross, normals, shape) { -winding } else { winding };
+        let ns = match normals {
+            Some([na, nb, nc]) => (w * na + u * nb + v * nc).try_normalize().unwrap_or(ng),
+            None => ng,
         };
         let [uv_a, uv_b, uv_c] = self.corner_uvs(hit.prim);
         let largest = a.abs().max_element().max(p.abs().max_element().into()) as f32;

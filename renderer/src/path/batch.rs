@@ -144,16 +144,23 @@ fn emit(cx: &Context, path: &mut Path, ray: &Ray, surface: Option<&Surface>, cou
 pub fn accumulate(cx: &Context, path: &Path, sample: &mut Sample) -> bool {
     let mut rejected = path.rejected;
     let mut parts = [path.scattered.diffuse, path.scattered.specular, path.emission];
-    if !(parts[0] + parts[1] + parts[2]).is_finite() {
-        parts = [Rgb::ZERO; 3]; // finite contributions, but not their sum
-        rejected = true;
-    }
     if let Some(limit) = cx.settings.clamp {
         let total = parts[0] + parts[1] + parts[2];
         let factor = total.map(|x| if x > limit { limit / x } else { 1.0 });
         parts = parts.map(|part| part * factor);
     }
-    let [diffuse, specular, emission] = parts.map(|part| part * path.weight);
+    parts = parts.map(|part| part * path.weight);
+    if !(parts[0] + parts[1] + parts[2]).is_finite() {
+        parts = [Rgb::ZERO; 3]; // finite contributions, but not their sum
+        rejected = true;
+    }
+    if cx.features {
+        for value in sample.values.iter_mut().filter(|value| !value.is_finite()) {
+            *value = 0.0; // a bad texel in an albedo
+            rejected = true;
+        }
+    }
+    let [diffuse, specular, emission] = parts;
     sample.set(Layer::Beauty, (diffuse + specular + emission).to_array());
     sample.set(Layer::Diffuse, diffuse.to_array());
     sample.set(Layer::Specular, specular.to_array());

@@ -8,7 +8,7 @@ use crate::geometry::Surface;
 /// The path hit a surface: adds what it emits.
 #[inline]
 pub fn emit_surface(cx: &Context, path: &mut Path, ray: &Ray, surface: &Surface) {
-    if path.edges == 1 && cx.settings.hide_emitters {
+    if is_hidden(cx, path) {
         return;
     }
     let Some(light) = cx.scene.lights.of_shape(surface.shape) else { return };
@@ -25,7 +25,7 @@ pub fn emit_surface(cx: &Context, path: &mut Path, ray: &Ray, surface: &Surface)
 #[inline]
 pub fn emit_background(cx: &Context, path: &mut Path, ray: &Ray, counters: &mut Counters) {
     let lights = &cx.scene.lights;
-    if !lights.has_infinite() || (path.edges == 1 && cx.settings.hide_emitters) {
+    if !lights.has_infinite() || is_hidden(cx, path) {
         return;
     }
     counters.environment += 1;
@@ -33,4 +33,10 @@ pub fn emit_background(cx: &Context, path: &mut Path, ray: &Ray, counters: &mut 
         let weight = if path.delta { 1.0 } else { mis_weight(path.pdf, pdf) };
         path.gather(path.beta * weight, radiance);
     }
+}
+
+/// Whether lights are not seen along the current ray: a path of depth 0 has no edge.
+#[inline]
+fn is_hidden(cx: &Context, path: &Path) -> bool {
+    (path.edges == 1 && cx.settings.hide_emitters) || cx.settings.max_depth == Some(0)
 }

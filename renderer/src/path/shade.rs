@@ -111,7 +111,7 @@ fn record_features(
 ) {
     if path.edges == 1 {
         // The camera is the origin of render space.
-        features.set(Layer::Depth, [surface.p.length()]);
+        features.set(Layer::Depth, [surface.p.as_dvec3().length() as f32]);
         features.set(Layer::Hit, [1.0]);
         features.ids = [surface.shape as f32, material as f32];
     } else if bsdf.near_delta() {

@@ -37,7 +37,9 @@ impl Slabs {
     /// Entry distances, and a bit mask of the children that the ray meets before `t_max`.
     #[inline(always)]
     fn test(&self, node: &Node, t_max: f32) -> ([f32; WIDTH], u32) {
-        let (mut enter, mut leave) = ([0.0f32; WIDTH], [t_max; WIDTH]);
+        // Widened like the far planes: a hit in a flat box may lie before the box's own rounded distance. Finite, so that
+        // a plane parallel to the ray (∞) is never reached.
+        let (mut enter, mut leave) = ([0.0f32; WIDTH], [(t_max * WIDEN).min(f32::MAX); WIDTH]);
         for axis in 0..3 {
             let (near, far) = (&node.planes[self.near[axis]], &node.planes[self.far[axis]]);
             let (o, inverse) = (self.o[axis], self.inverse[axis]);
@@ -71,7 +73,7 @@ pub fn closest<B: Blocks>(tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
         while top > 0 {
             top -= 1;
             let Entry { t, child } = stack[top];
-            if t > hit.t {
+            if t > hit.t * WIDEN {
                 continue;
             }
             if child.0 & Child::LEAF != 0 {
