@@ -176,23 +176,31 @@ impl JointNlm {
         text
     }
 
-    /// The windows of both passes.
-    fn windows(&self) -> [Window; 2] {
-        let first = Window {
-            radius: self.radius,
-            patch: self.patch,
-            k: self.k_color,
-            sigma_spatial: self.sigma_spatial,
-            average: false,
+    /// One pass over all components: the buffers become the filtered ones.
+    fn pass(&self, size: Size, second: bool, components: &mut Components, features: &[Feature]) {
+        let radius = if second { self.second_radius } else { self.radius };
+        let window = Window { radius, patch: self.patch, average: second };
+        let guides: Vec<Guide> =
+            components.filtered.iter().map(|component| self.guide(second, component)).collect();
+        let mut filtered = filter(size, &window, &guides, features).into_iter();
+        for component in &mut components.filtered {
+            component.buffers = filtered.by_ref().take(component.buffers.len()).collect();
+        }
+    }
+
+    /// The guide of a component: each half filters the other, so that a sample has no part in its own weight.
+    fn guide<'a>(&self, second: bool, component: &'a Component) -> Guide<'a> {
+        let (k, sigma_spatial) = match (component.layer, second) {
+            // A lamp's edge is alike as far as it goes, and what leaks out of it outshines what it leaks into.
+            (Layer::Emission, _) => (self.k_color, f32::INFINITY),
+            (_, false) => (self.k_color, self.sigma_spatial),
+            (_, true) => (self.second_k_color, 0.5 * self.sigma_spatial),
         };
-        let second = Window {
-            radius: self.second_radius,
-            k: self.second_k_color,
-            sigma_spatial: 0.5 * self.sigma_spatial,
-            average: true,
-            ..first
+        let buffers = match component.buffers.as_slice() {
+            [a, b] => vec![Buffer { mean: b, targets: a }, Buffer { mean: a, targets: b }],
+            buffers => buffers.iter().map(|mean| Buffer { mean, targets: mean }).collect(),
         };
-        [first, second]
+        Guide { k, sigma_spatial, variance: &component.variance, buffers }
     }
 }
 
@@ -223,13 +231,12 @@ impl Denoiser for JointNlm {
         let features: Vec<_> =
             guides.iter().map(|(_, guided)| guided.feature(size, self.k_feature, self.tau)).collect();
 
-        let [first, second] = self.windows();
-        pass(size, &first, &mut components, &features);
+        self.pass(size, false, &mut components, &features);
         let halves = components.filtered.iter().all(|component| component.buffers.len() == 2);
         components.filtered.iter_mut().for_each(|component| join_halves(size, component));
         // Without halves nobody knows what noise is left, which is what a second pass goes by.
-        if halves && second.radius > 0 {
-            pass(size, &second, &mut components, &features);
+        if halves && self.second_radius > 0 {
+            self.pass(size, true, &mut components, &features);
         }
 
         let mut out = frame.clone();
@@ -244,24 +251,6 @@ impl Denoiser for JointNlm {
         out.metadata.insert("limpid:denoise".to_owned(), record);
         Ok(out)
     }
-}
-
-/// Filters the buffers of all components.
-fn pass(size: Size, window: &Window, components: &mut Components, features: &[Feature]) {
-    let guides: Vec<Guide> = components.filtered.iter().map(crossed).collect();
-    let mut filtered = filter(size, window, &guides, features).into_iter();
-    for component in &mut components.filtered {
-        component.buffers = filtered.by_ref().take(component.buffers.len()).collect();
-    }
-}
-
-/// The guide of a component: each half filters the other, so that a sample has no part in its own weight.
-fn crossed(component: &Component) -> Guide<'_> {
-    let buffers = match component.buffers.as_slice() {
-        [a, b] => vec![Buffer { mean: b, targets: a }, Buffer { mean: a, targets: b }],
-        buffers => buffers.iter().map(|mean| Buffer { mean, targets: mean }).collect(),
-    };
-    Guide { variance: &component.variance, buffers }
 }
 
 /// Makes one buffer of two, their mean, with its variance: a quarter of their squared difference, smoothed

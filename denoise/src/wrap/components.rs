@@ -4,9 +4,11 @@
 //! specular radiance goes by itself, and so does emission seen directly. The sum is the picture (Zimmer et
 //! al. 2015; Bako et al. 2017).
 //!
-//! Emission has noise only where a pixel sees the edge of a lamp, and passes through elsewhere. There it has
-//! to be filtered: a lamp a hundred times brighter than the wall makes its edge most of the picture's error
-//! (passed through as it is, half of the relMSE of a box with a visible lamp at 16 samples).
+//! Emission has noise only where a pixel sees the edge of a lamp, and passes through elsewhere: a filter leaves
+//! alone what has no noise around it. At the edge it has to be filtered, for a lamp a hundred times brighter
+//! than the wall makes it most of the picture's error (passed through as it is, half of the relMSE of a box
+//! with a visible lamp at 16 samples). Pixels right beside the edge belong to it: with a wide pixel filter
+//! some see the lamp once in thirty samples, and most of them not at all in sixteen.
 //!
 //! The albedo that is divided out and multiplied in again is the *prefiltered* one, the same both times.
 //! With the noisy one its own noise (defocus, edges, texture under a pixel) comes back with the last step,
@@ -101,9 +103,6 @@ pub(crate) fn recombine(frame: &mut Frame, components: &Components) -> usize {
             }
             limit(plane);
         }
-        if component.layer == Layer::Emission {
-            keep_what_is_certain(frame, &mut planes);
-        }
         frame.insert_layer(component.layer, Statistic::Mean, planes);
     }
     if components.whole.is_some() {
@@ -126,21 +125,6 @@ pub(crate) fn recombine(frame: &mut Frame, components: &Components) -> usize {
 /// Products and sums of huge values may leave the range of f32.
 fn limit(plane: &mut [f32]) {
     plane.iter_mut().for_each(|value| *value = value.clamp(f32::MIN, f32::MAX));
-}
-
-/// Puts the frame's own emission back where no two of its samples differed: the inside of a lamp, and all
-/// that does not glow.
-fn keep_what_is_certain(frame: &Frame, filtered: &mut [Plane]) {
-    let own = |statistic| frame.layer(Layer::Emission, statistic).unwrap_or_default();
-    for ((plane, mean), variance) in
-        filtered.iter_mut().zip(own(Statistic::Mean)).zip(own(Statistic::Variance))
-    {
-        for ((value, mean), variance) in plane.iter_mut().zip(mean).zip(variance) {
-            if *variance == 0.0 && mean.is_finite() {
-                *value = *mean;
-            }
-        }
-    }
 }
 
 /// Whether parts add up to the beauty, over the whole picture and up to rounding. A picture with a part

@@ -60,9 +60,9 @@ pub(crate) fn prefiltered(frame: &Frame, layer: Layer) -> Option<Guided> {
         return Some(Guided { mean: planes, variance });
     }
 
-    let window = Window { radius: 5, patch: 3, k: 1.0, sigma_spatial: f32::INFINITY, average: false };
+    let window = Window { radius: 5, patch: 3, average: false };
     let buffers = vec![Buffer { mean: &planes[..channels], targets: &planes }];
-    let guide = Guide { variance: &variance, buffers };
+    let guide = Guide { k: 1.0, sigma_spatial: f32::INFINITY, variance: &variance, buffers };
     let mut filtered = filter(size, &window, &[guide], &[]).remove(0);
     let variance = if with_halves {
         left_noise(&filtered[channels..2 * channels], &filtered[2 * channels..])

@@ -13,7 +13,7 @@
 //! ```
 //!
 //! The *targets* t that a guide's weights filter are other planes than the guide where it can be, so that
-//! weights and noise are independent. Neighbours outside the image are skipped, and of a patch only what
+//! weights and noise are independent. A pixel without noise (V = 0 in all channels) stays as it is. Neighbours outside the image are skipped, and of a patch only what
 //! is inside at both ends counts. With `average` the weight `exp(−max(0, d²))` is averaged over the patch
 //! once more (every patch that covers a pixel votes on it) before the minimum with the other factors.
 //!
@@ -34,23 +34,23 @@ use crate::plane::{Plane, Size};
 use kernel::Job;
 use tile::Rect;
 
-/// How far the window and the patch reach, and how strict the weights are.
+/// How far the window and the patch reach.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Window {
     /// Of the search window, in pixels: it has a side of `2 radius + 1`.
     pub radius: usize,
     /// Of the patch, in pixels.
     pub patch: usize,
-    /// k: how many standard deviations of the difference count as equal.
-    pub k: f32,
-    /// σ of a Gaussian over the distance ‖δ‖, in pixels.
-    pub sigma_spatial: f32,
     /// Whether weights are averaged over the patch.
     pub average: bool,
 }
 
 /// Where colour weights come from: one picture, or two halves of its samples, which have the same variance.
 pub(crate) struct Guide<'a> {
+    /// k: how many standard deviations of the difference count as equal.
+    pub k: f32,
+    /// σ of a Gaussian over the distance ‖δ‖, in pixels.
+    pub sigma_spatial: f32,
     /// V: of each buffer's mean, plane by plane.
     pub variance: &'a [Plane],
     pub buffers: Vec<Buffer<'a>>,

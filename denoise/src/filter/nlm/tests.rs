@@ -33,7 +33,7 @@ fn distance(mean: &[Plane], variance: &[Plane], denominator: &[Plane], k2: f64, 
 struct Slow<'a> {
     size: Size,
     window: &'a Window,
-    variance: &'a [Plane],
+    guide: &'a Guide<'a>,
     buffer: &'a Buffer<'a>,
     features: &'a [Feature],
 }
@@ -60,12 +60,12 @@ impl Slow<'_> {
     }
 
     fn weight(&self, (x, y): (i64, i64), (dx, dy): (i64, i64)) -> f64 {
-        let (mean, variance) = (self.buffer.mean, self.variance);
+        let (mean, variance) = (self.buffer.mean, self.guide.variance);
         let pair = |i, j| {
             let q = self.at(i + dx, j + dy).expect("both ends are inside");
             (self.at(i, j).expect("both ends are inside"), q)
         };
-        let k2 = f64::from(self.window.k).powi(2);
+        let k2 = f64::from(self.guide.k).powi(2);
         let pixel = |i, j| {
             let (p, q) = pair(i, j);
             distance(mean, variance, variance, k2, p, q)
@@ -74,7 +74,7 @@ impl Slow<'_> {
         let color = |i, j| (-patch(i, j).max(0.0)).exp();
         let color = if self.window.average { self.over_patch((x, y), (dx, dy), &color) } else { color(x, y) };
         let (p, q) = pair(x, y);
-        let mut exponent = (dx * dx + dy * dy) as f64 / (2.0 * f64::from(self.window.sigma_spatial).powi(2));
+        let mut exponent = (dx * dx + dy * dy) as f64 / (2.0 * f64::from(self.guide.sigma_spatial).powi(2));
         for f in self.features {
             exponent = exponent.max(distance(&f.mean, &f.variance, &f.denominator, 1.0, p, q));
         }
@@ -114,12 +114,12 @@ fn the_filter_is_its_formula_in_double_precision() {
     for (patch, average, sigma_spatial, k) in
         [(1, false, f32::INFINITY, 0.45), (2, true, 2.5, 1.0), (0, true, 4.0, 0.7)]
     {
-        let window = Window { radius: 4, patch, k, sigma_spatial, average };
+        let window = Window { radius: 4, patch, average };
         let buffers = vec![Buffer { mean: &a, targets: &b }, Buffer { mean: &b, targets: &a }];
-        let guides = [Guide { variance: &variance, buffers }];
+        let guides = [Guide { k, sigma_spatial, variance: &variance, buffers }];
         let fast = filter(size, &window, &guides, &features);
         for (buffer, fast) in guides[0].buffers.iter().zip(&fast) {
-            let slow = Slow { size, window: &window, variance: &variance, buffer, features: &features };
+            let slow = Slow { size, window: &window, guide: &guides[0], buffer, features: &features };
             for (target, fast) in buffer.targets.iter().zip(fast) {
                 for (p, &value) in fast.iter().enumerate() {
                     let expected = slow.filtered(target, p % size.width, p / size.width);
@@ -131,15 +131,42 @@ fn the_filter_is_its_formula_in_double_precision() {
     }
 }
 
+/// Planes that filter themselves.
+fn alone<'a>(mean: &'a [Plane], variance: &'a [Plane]) -> Guide<'a> {
+    Guide { k: 0.7, sigma_spatial: 3.0, variance, buffers: vec![Buffer { mean, targets: mean }] }
+}
+
+#[test]
+fn a_pixel_without_noise_stays_as_it_is() {
+    let size = Size { width: 80, height: 40 };
+    let mean = planes(size, 2, 6);
+    // The left half is free of noise in both channels, the middle in one.
+    let noise = |end: usize| -> Plane {
+        (0..size.len()).map(|p| if p % size.width < end { 0.0 } else { 0.3 }).collect()
+    };
+    let variance = [noise(40), noise(50)];
+    let window = Window { radius: 3, patch: 1, average: true };
+    let filtered = filter(size, &window, &[alone(&mean, &variance)], &[]);
+    for (mean, filtered) in mean.iter().zip(&filtered[0]) {
+        for (p, (mean, filtered)) in mean.iter().zip(filtered).enumerate() {
+            match p % size.width {
+                0..40 => assert_eq!(filtered, mean, "pixel {p}"),
+                50..80 => assert_ne!(filtered, mean, "pixel {p}"),
+                _ => {}
+            }
+        }
+    }
+}
+
 #[test]
 fn hc39_weights_that_underflow_leave_the_centre() {
     let size = Size { width: 9, height: 9 };
     let mut mean = vec![1e6; size.len()];
     mean[4 * 9 + 4] = 1.0;
     let variance = [vec![1e-6; size.len()]];
-    let window = Window { radius: 3, patch: 0, k: 1.0, sigma_spatial: f32::INFINITY, average: false };
+    let window = Window { radius: 3, patch: 0, average: false };
     let mean = [mean];
-    let guide = Guide { variance: &variance, buffers: vec![Buffer { mean: &mean, targets: &mean }] };
+    let guide = alone(&mean, &variance);
     assert_eq!(filter(size, &window, &[guide], &[])[0][0][4 * 9 + 4], 1.0);
 }
 
@@ -152,16 +179,10 @@ fn a_window_filter_does_not_depend_on_where_its_tiles_begin() {
     };
     let mean = planes(whole, 1, 5);
     let variance = [vec![0.02; whole.len()]];
-    let window = Window { radius: 5, patch: 2, k: 0.7, sigma_spatial: 3.0, average: true };
-    let filtered = filter(
-        whole,
-        &window,
-        &[Guide { variance: &variance, buffers: vec![Buffer { mean: &mean, targets: &mean }] }],
-        &[],
-    );
+    let window = Window { radius: 5, patch: 2, average: true };
+    let filtered = filter(whole, &window, &[alone(&mean, &variance)], &[]);
     let (cut_mean, cut_variance) = ([cut(&mean[0])], [cut(&variance[0])]);
-    let guide =
-        Guide { variance: &cut_variance, buffers: vec![Buffer { mean: &cut_mean, targets: &cut_mean }] };
+    let guide = alone(&cut_mean, &cut_variance);
     let shifted = filter(part, &window, &[guide], &[]);
     let expected = cut(&filtered[0][0]);
     let reach = window.radius + 2 * window.patch; // of the border that was cut off

@@ -43,7 +43,12 @@ mod tests {
         let plane =
             |seed: usize| -> Plane { (0..size.len()).map(|p| ((p * seed) % 997) as f32 / 997.0).collect() };
         let (mean, variance) = ([plane(13), plane(29), plane(31)], [plane(7), plane(11), plane(17)]);
-        let guides = [Guide { variance: &variance, buffers: vec![Buffer { mean: &mean, targets: &mean }] }];
+        let guides = [Guide {
+            k: 0.5,
+            sigma_spatial: 3.0,
+            variance: &variance,
+            buffers: vec![Buffer { mean: &mean, targets: &mean }],
+        }];
         let feature = |seed| Feature {
             mean: vec![plane(seed)],
             variance: vec![vec![0.01; size.len()]],
@@ -51,7 +56,7 @@ mod tests {
         };
         let features = [feature(41), feature(43)];
         for average in [false, true] {
-            let window = Window { radius: 6, patch: 3, k: 0.5, sigma_spatial: 3.0, average };
+            let window = Window { radius: 6, patch: 3, average };
             let job = Job { size, window: &window, guides: &guides, features: &features };
             let tile = Rect { x: 3..50, y: 0..33 };
             let expected = scalar::filter_tile(&job, &tile);

@@ -18,6 +18,10 @@ const TINY: f32 = f32::MIN_POSITIVE;
 
 /// A guide, a buffer and a feature as numbers of planes in a [`Local`].
 struct Guide {
+    k: f32,
+    sigma_spatial: f32,
+    /// Whether any pixel of the tile has noise: if not, there is nothing to do.
+    noisy: bool,
     variance: Vec<usize>,
     buffers: Vec<Buffer>,
 }
@@ -77,6 +81,12 @@ pub(super) fn filter_tile(job: &Job, tile: &Rect) -> Vec<Vec<Plane>> {
     let mut local = Local::new(job.size, tile, window.radius + halo);
     let mut guides = copy_guides(job, tile, &mut local);
     let features = copy_features(job, &mut local);
+    for guide in &mut guides {
+        guide.noisy = tile.y.clone().any(|y| noise_free(guide, &local, tile, y).contains(&false));
+    }
+    if !guides.iter().any(|guide| guide.noisy) {
+        return finish(guides, &local, tile);
+    }
     let mut scratch = Scratch::default();
     let radius = window.radius as isize;
     for dy in -radius..=radius {
@@ -92,16 +102,28 @@ pub(super) fn filter_tile(job: &Job, tile: &Rect) -> Vec<Vec<Plane>> {
             for feature in &features {
                 raise_exponent(feature, &local, tile, &offset, &mut scratch);
             }
-            for guide in &mut guides {
+            for guide in guides.iter_mut().filter(|guide| guide.noisy) {
                 pixel_distances(job, guide, &local, &offset, &mut scratch);
                 for (index, buffer) in guide.buffers.iter_mut().enumerate() {
                     color_weights(job, tile, &offset, &mut scratch, index);
-                    accumulate(job, buffer, &local, tile, &offset, &mut scratch);
+                    accumulate(job, guide.sigma_spatial, buffer, &local, tile, &offset, &mut scratch);
                 }
             }
         }
     }
-    guides.into_iter().flat_map(|guide| guide.buffers).map(|buffer| finish(buffer, &local, tile)).collect()
+    finish(guides, &local, tile)
+}
+
+/// Which pixels of a row of the tile have no variance in any channel.
+fn noise_free(guide: &Guide, local: &Local, tile: &Rect, y: isize) -> Vec<bool> {
+    let mut free = vec![true; tile.width()];
+    for &variance in &guide.variance {
+        let row = local.row(variance, (tile.x.start, y), tile.width().div_ceil(LANES));
+        for (free, variance) in free.iter_mut().zip(row.as_flattened()) {
+            *free &= *variance == 0.0;
+        }
+    }
+    free
 }
 
 fn copy_guides<'a>(job: &Job<'a>, tile: &Rect, local: &mut Local<'a>) -> Vec<Guide> {
@@ -120,7 +142,14 @@ fn copy_guides<'a>(job: &Job<'a>, tile: &Rect, local: &mut Local<'a>) -> Vec<Gui
             weights: empty(),
             sums: buffer.targets.iter().map(|_| empty()).collect(),
         });
-        guides.push(Guide { variance, buffers: buffers.collect() });
+        let buffers = buffers.collect();
+        guides.push(Guide {
+            k: guide.k,
+            sigma_spatial: guide.sigma_spatial,
+            noisy: false,
+            variance,
+            buffers,
+        });
     }
     guides
 }
@@ -136,19 +165,29 @@ fn copy_features<'a>(job: &Job<'a>, local: &mut Local<'a>) -> Vec<Feature> {
     job.features.iter().map(copy).collect()
 }
 
-/// The answer of one buffer. The pixel itself has weight 1: none is left without weights.
-fn finish(buffer: Buffer, local: &Local, tile: &Rect) -> Vec<Plane> {
-    let Buffer { targets, weights, sums, .. } = buffer;
-    let answer = targets.iter().zip(&sums).map(|(&target, sums)| {
-        let mut plane = Vec::with_capacity(tile.pixels());
-        for y in tile.y.clone() {
-            let own = local.row(target, (tile.x.start, y), weights.blocks()).as_flattened();
-            let row = own.iter().zip(sums.row(y).as_flattened()).zip(weights.row(y).as_flattened());
-            plane.extend(row.map(|((own, sum), weights)| own + sum / (1.0 + weights)).take(tile.width()));
+/// The answer of each buffer. The pixel itself has weight 1: none is left without weights.
+fn finish(guides: Vec<Guide>, local: &Local, tile: &Rect) -> Vec<Vec<Plane>> {
+    let mut answer = Vec::new();
+    for guide in &guides {
+        for Buffer { targets, weights, sums, .. } in &guide.buffers {
+            let mut planes = vec![Vec::with_capacity(tile.pixels()); targets.len()];
+            for y in tile.y.clone() {
+                let free = noise_free(guide, local, tile, y);
+                let weights = weights.row(y).as_flattened();
+                for ((plane, &target), sums) in planes.iter_mut().zip(targets).zip(sums) {
+                    let own = local.row(target, (tile.x.start, y), sums.blocks()).as_flattened();
+                    let row = own.iter().zip(sums.row(y).as_flattened()).zip(weights).zip(&free);
+                    plane.extend(row.map(
+                        |(((own, sum), weights), free)| {
+                            if *free { *own } else { own + sum / (1.0 + weights) }
+                        },
+                    ));
+                }
+            }
+            answer.push(planes);
         }
-        plane
-    });
-    answer.collect()
+    }
+    answer
 }
 
 // `f32::min` and `max` also say what happens to a NaN, which costs three instructions more each.
@@ -214,7 +253,7 @@ fn pixel_distances(job: &Job, guide: &Guide, local: &Local, offset: &Offset, scr
         grid.cover(&area);
     }
     let n = area.width().div_ceil(LANES);
-    let k2 = job.window.k * job.window.k * guide.variance.len() as f32;
+    let k2 = guide.k * guide.k * guide.variance.len() as f32;
     zeros(scale, n * guide.variance.len(), [0.0; LANES]);
     for y in inner.y.clone() {
         let (own, other) = ((area.x.start, y), (area.x.start + offset.dx, y + offset.dy));
@@ -337,6 +376,7 @@ fn box_mean(
 #[inline(always)]
 fn accumulate(
     job: &Job,
+    sigma: f32,
     buffer: &mut Buffer,
     local: &Local,
     tile: &Rect,
@@ -344,7 +384,6 @@ fn accumulate(
     scratch: &mut Scratch,
 ) {
     let Offset { dx, dy, part, .. } = offset;
-    let sigma = job.window.sigma_spatial;
     let near = (dx * dx + dy * dy) as f32 / (2.0 * sigma * sigma);
     let Scratch { exponent, patch, averaged, row, .. } = scratch;
     let n = exponent.blocks();
