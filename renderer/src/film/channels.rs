@@ -43,7 +43,7 @@ pub type Values = [f32; COUNT];
 /// One sample of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// See [`first_channel`].
+    /// The channels of all layers, one layer after the other; [`Self::get`] finds them by name.
     pub values: Values,
     /// Object and material of the first hit; −1 for the background.
     pub ids: [f32; 2],
