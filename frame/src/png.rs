@@ -44,7 +44,9 @@ pub fn write_png(
         return Err(FrameError::unwritable(path, problem));
     };
     let scale = exposure_ev.exp2();
-    let to_byte = |v: f32| (display_transform(v * scale) * 255.0).round() as u8;
+    // A finite value stays finite: bright must not turn black.
+    let exposed = |v: f32| if v.is_finite() { (v * scale).clamp(f32::MIN, f32::MAX) } else { v };
+    let to_byte = |v: f32| (display_transform(exposed(v)) * 255.0).round() as u8;
     let [r, g, b] = rgb;
     let bytes: Vec<u8> =
         r.iter().zip(g).zip(b).flat_map(|((&r, &g), &b)| [to_byte(r), to_byte(g), to_byte(b)]).collect();

@@ -55,8 +55,8 @@ pub(crate) fn open_regular(path: &Path) -> Result<(File, u64), FrameError> {
 
 /// The file that `path` means: the end of its symbolic links where it has any.
 fn target_of(path: &Path) -> io::Result<PathBuf> {
-    if path.file_name().is_none() {
-        // Empty, `..`, or a root.
+    if path.file_name().is_none() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+        // Empty, `..`, a root, or a folder's name.
         return Err(io::Error::from(ErrorKind::InvalidFilename));
     }
     match fs::canonicalize(path) {

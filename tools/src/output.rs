@@ -97,7 +97,7 @@ pub fn check_records_folder(folder: &Path) -> Result<(), CliError> {
 }
 
 fn check_file(path: &Path) -> io::Result<()> {
-    if path.file_name().is_none() {
+    if path.file_name().is_none() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
         return Err(io::Error::from(ErrorKind::InvalidFilename));
     }
     match fs::metadata(path) {
