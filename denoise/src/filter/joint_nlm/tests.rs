@@ -179,8 +179,8 @@ fn the_edge_of_a_lamp_is_filtered_and_its_inside_passes_through() {
     let clean = clean.channel("emission.R").expect("is there");
     let error = |plane: &[f32]| (0..width).map(|y| (plane[y * width + 20] - 25.0).powi(2)).sum::<f32>();
     assert!(error(clean) < 0.3 * error(&mean), "{} of {}", error(clean), error(&mean));
-    // The first pass reaches one pixel beyond what has noise, the second one two more.
-    assert!((0..n).filter(|p| (p % width).abs_diff(20) > 3).all(|p| clean[p] == mean[p]));
+    // Each pass reaches one pixel further than noise does.
+    assert!((0..n).filter(|p| (p % width).abs_diff(20) > 2).all(|p| clean[p] == mean[p]));
 }
 
 #[test]
