@@ -91,7 +91,8 @@ pub(crate) fn split(frame: &Frame) -> Result<Components, FrameError> {
     Ok(Components { filtered, repaired, whole })
 }
 
-/// Puts the components, each of one filtered buffer, together into `frame`: themselves and, as `R G B`, their sum. Returns how many pixels of what passes through were not finite and were filled.
+/// Puts the components, each of one filtered buffer, together into `frame`: themselves and, as `R G B`, their
+/// sum. Returns how many pixels of what passes through were not finite and were filled.
 pub(crate) fn recombine(frame: &mut Frame, components: &Components) -> usize {
     let size = Size { width: frame.width(), height: frame.height() };
     for component in &components.filtered {

@@ -13,9 +13,10 @@
 //! ```
 //!
 //! The *targets* t that a guide's weights filter are other planes than the guide where it can be, so that
-//! weights and noise are independent. A pixel without noise (V = 0 in all channels) stays as it is. Neighbours outside the image are skipped, and of a patch only what
-//! is inside at both ends counts. With `average` the weight `exp(−max(0, d²))` is averaged over the patch
-//! once more (every patch that covers a pixel votes on it) before the minimum with the other factors.
+//! weights and noise are independent. A pixel without noise (V = 0 in all channels) stays as it is. Neighbours
+//! outside the image are skipped, and of a patch only what is inside at both ends counts. With `average` the
+//! weight `exp(−max(0, d²))` is averaged over the patch once more (every patch that covers a pixel votes on
+//! it) before the minimum with the other factors.
 //!
 //! The work goes offset by offset over tiles: patch sums are separable box sums, so their cost grows
 //! with a patch's side and not its area, and what a tile needs stays in a core's own cache. Sums are taken
