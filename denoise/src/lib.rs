@@ -51,7 +51,6 @@ mod error;
 mod exp;
 pub mod filter;
 mod method;
-mod nearest;
 mod plane;
 mod wrap;
 

@@ -1,8 +1,7 @@
 //! The table of methods and of their parameters.
 
-use limpid_frame::LayerRequest;
+use limpid_frame::{LayerRequest, nearest_first};
 
-use crate::nearest::nearest_first;
 use crate::{DenoiseError, Denoiser, filter};
 
 /// What sort of method it is.

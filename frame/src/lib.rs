@@ -59,6 +59,7 @@ mod metrics;
 mod png;
 mod records;
 mod request;
+pub use request::nearest_first;
 pub mod stats;
 #[cfg(test)]
 mod testing;

@@ -19,7 +19,10 @@ impl LayerRequest {
             }
             let (name, statistic) = item.split_once('.').map_or((item, None), |(n, s)| (n, Some(s)));
             let Some(layer) = Layer::from_name(name) else {
-                return Err(FrameError::UnknownLayer { name: name.to_owned(), known: nearest_first(name) });
+                return Err(FrameError::UnknownLayer {
+                    name: name.to_owned(),
+                    known: nearest_first(name, Layer::ALL.iter().map(|l| l.name())),
+                });
             };
             request = match statistic {
                 None => request.with(layer, Statistic::Mean),
@@ -37,9 +40,9 @@ impl LayerRequest {
     }
 }
 
-/// All layers' names, the likeliest to be meant first.
-fn nearest_first(name: &str) -> Vec<&'static str> {
-    let mut known: Vec<&str> = Layer::ALL.iter().map(|layer| layer.name()).collect();
+/// The names, the likeliest to be meant by `name` first: what an error about an unknown name lists.
+pub fn nearest_first(name: &str, known: impl Iterator<Item = &'static str>) -> Vec<&'static str> {
+    let mut known: Vec<&str> = known.collect();
     known.sort_by_key(|candidate| edit_distance(name, candidate)); // stable: the table's order among equals
     known
 }

@@ -40,6 +40,8 @@ pub struct Rendered {
     pub frame: Frame,
     /// The beauty with its halves, for the error figure; `None` with one sample per pixel.
     pub halves: Option<Frame>,
+    /// Samples that every pixel has; fewer than asked for where the render was cancelled.
+    pub spp: u32,
     /// What was done.
     pub counters: Counters,
     /// Samples with a contribution that was not finite and counts as 0.
@@ -105,7 +107,7 @@ pub fn render(
     let mut frame = film.develop();
     let spp = film.tiles.iter().map(|tile| tile.samples).min().unwrap_or(0);
     describe(scene, settings, spp, rejected, &mut frame);
-    Rendered { frame, halves: film.beauty_halves(), counters, rejected, first_rejected, interrupted }
+    Rendered { frame, halves: film.beauty_halves(), spp, counters, rejected, first_rejected, interrupted }
 }
 
 /// Passes are aligned blocks of samples: 2, 4, 8, 16 and then every 16.

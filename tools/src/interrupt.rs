@@ -10,7 +10,8 @@ use limpid_renderer::Progress;
 /// The render that the first Ctrl-C stops.
 static RENDER: Mutex<Option<Arc<Progress>>> = Mutex::new(None);
 
-/// Takes over Ctrl-C. Files appear whole or not at all, so that ending at once leaves no half of one.
+/// Takes over Ctrl-C. Files appear under their names whole or not at all, also where the program ends at once; a temporary
+/// file beside them may then stay.
 pub fn install(quiet: bool) {
     // Where the system gives no handler its own stays: it ends the program, too.
     let _ = ctrlc::set_handler(move || {
@@ -20,7 +21,10 @@ pub fn install(quiet: bool) {
                 if !quiet {
                     // On a terminal the line has `^C` and the bar on it.
                     let begin = if io::stderr().is_terminal() { "\n" } else { "" };
-                    let _ = writeln!(io::stderr(), "{begin}stopping; Ctrl-C again to keep nothing");
+                    let _ = writeln!(
+                        io::stderr(),
+                        "{begin}finishing what was begun; Ctrl-C again to keep nothing"
+                    );
                 }
             }
             _ => process::exit(130),

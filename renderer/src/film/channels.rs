@@ -68,11 +68,6 @@ impl Sample {
         self.values[LIT] = 1.0;
     }
 
-    /// Whether [`Self::set_visibility`] was called.
-    pub fn has_visibility(&self) -> bool {
-        self.values[LIT] != 0.0
-    }
-
     /// The value of a layer's channel.
     pub fn get(&self, layer: Layer, channel: usize) -> f32 {
         first_channel(layer).map_or(0.0, |first| self.values[first + channel])

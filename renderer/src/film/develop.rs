@@ -40,16 +40,12 @@ impl Film {
     pub fn develop(&self) -> Frame {
         let mut frame = Frame::new(self.width as usize, self.height as usize);
         let halves = self.tiles.iter().all(|tile| tile.samples > 1);
-        let mut planes = Vec::new();
         for (layer, statistic) in self.plan.layers.iter() {
             if !halves && matches!(statistic, Statistic::A | Statistic::B) {
                 continue;
             }
-            planes.clear();
-            for channel in 0..layer.channels().len() {
-                planes.push(self.plane(layer, statistic, channel));
-            }
-            frame.insert_layer(layer, statistic, std::mem::take(&mut planes));
+            let planes = (0..layer.channels().len()).map(|channel| self.plane(layer, statistic, channel));
+            frame.insert_layer(layer, statistic, planes.collect());
         }
         frame
     }

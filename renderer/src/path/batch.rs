@@ -156,8 +156,7 @@ pub fn accumulate(cx: &Context, path: &Path, sample: &mut Sample) -> bool {
     }
     if cx.features {
         for value in sample.values.iter_mut().filter(|value| !value.is_finite()) {
-            *value = 0.0; // a bad texel in an albedo
-            rejected = true;
+            *value = 0.0; // a bad texel in an albedo; not counted, since the count must not hang on the layers
         }
     }
     let [diffuse, specular, emission] = parts;

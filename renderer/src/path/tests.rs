@@ -123,3 +123,34 @@ fn mis_weights_add_up_to_one_whatever_the_densities() {
         assert!((sum - 1.0f32).abs() < 1e-6, "{a} {b}: {sum}");
     }
 }
+
+#[test]
+fn paths_end_in_a_closed_box_of_perfect_mirrors_and_of_perfect_white() {
+    let mirror = limpid_scenes::MaterialKind::Conductor {
+        ior: None,
+        specular_reflectance: limpid_scenes::Color::Constant([1.0; 3]),
+    };
+    for material in [mirror, diffuse(1.0)] {
+        let mut scene = scene(camera(DVec3::ZERO, DVec3::X, 2, 2), vec![material]);
+        add(&mut scene, ShapeKind::Cube, DMat4::IDENTITY, 0).flip_normals = true;
+        let rendered = render(&scene, |s| (s.spp, s.max_depth) = (4, None));
+        assert!(rendered.counters.rays > 16 * 1000, "{} rays", rendered.counters.rays);
+        assert_eq!(mean(&rendered, "G"), 0.0);
+    }
+}
+
+#[test]
+fn paths_of_no_depth_are_black() {
+    let rendered = render(&room(), |s| (s.spp, s.max_depth) = (2, Some(0)));
+    assert_eq!(mean(&rendered, "G"), 0.0);
+}
+
+#[test]
+fn shape_beyond_the_range_of_f32_is_an_error_that_names_it() {
+    for kind in [ShapeKind::Cube, unit_sphere()] {
+        let mut scene = room();
+        add(&mut scene, kind, DMat4::from_translation(DVec3::new(1e39, 0.0, 0.0)), 0).name = "afar".into();
+        let error = crate::Prepared::new(&scene, 0).err().expect("out of range");
+        assert!(error.element.contains("afar"), "{error}");
+    }
+}

@@ -59,7 +59,7 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
     let render_user_s = system::user_seconds().zip(user).map(|(end, begin)| end - begin);
     drop(prepared);
 
-    let Rendered { mut frame, halves, counters, rejected, first_rejected, interrupted } = rendered;
+    let Rendered { mut frame, halves, spp, counters, rejected, first_rejected, interrupted } = rendered;
     let error = halves.and_then(|halves| estimate(halves, &settings, interrupted));
     frame.metadata.extend(header);
     if interrupted {
@@ -88,6 +88,7 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
         effects: &effects,
         warnings,
         interrupted,
+        spp,
         denoise: options.denoise.map(|method| method.name),
         pixel: options.pixel,
     };

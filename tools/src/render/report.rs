@@ -44,6 +44,8 @@ pub struct Report<'a> {
     /// How many the scene has.
     pub warnings: usize,
     pub interrupted: bool,
+    /// Samples that every pixel has.
+    pub spp: u32,
     /// The method that was asked for; an interrupted picture is left noisy.
     pub denoise: Option<&'a str>,
     /// `--pixel`
@@ -152,7 +154,7 @@ impl Report<'_> {
             "png": self.pictures.png,
             "width": self.frame.width(),
             "height": self.frame.height(),
-            "spp": self.settings.spp,
+            "spp": self.spp,
             "seconds": self.seconds,
             "render_s": self.seconds.render,
             "rays": self.rays(),
