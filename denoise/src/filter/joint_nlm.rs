@@ -12,24 +12,18 @@
 //! and third candidate to choose from, features are compared with k = 1.2 and not 0.6, and a Gaussian
 //! over the distance stands in for the world position.
 //!
-//! What was tried. relMSE over that of Open Image Denoise 2.5 (high quality, prefiltered albedo and normal),
-//! geometric mean over the scenes corner, court and shelf of `scenes/tune` at 192x144 with 16 and 64 samples,
-//! one seed each. The defaults were chosen on these and on frames of seven other scenes, so that the first row flatters;
-//! `limpid denoise --set` gives the variants:
+//! What its parts are worth: relMSE over that of the defaults, geometric mean over the scenes corner, court and shelf of
+//! `scenes/tune` at 192x144 with 16 and 64 samples, as `docs/joint-nlm.sh` prints it. The defaults were chosen on these
+//! and on other frames, some with a lamp in view:
 //!
 //! | variant | |
 //! | --- | --- |
-//! | default | 1.39 |
-//! | one pass (`second_radius=0`) | 2.25 |
-//! | one pass, patch 3 x 3: the paper's FIRST (`second_radius=0 patch=1`) | 1.76 |
-//! | one pass, features only: the paper's THIRD (`second_radius=0 k_color=100 tau=1e-4`) | 12.9 |
-//! | no Gaussian (`sigma_spatial=1000000`) | 1.42 |
-//! | without the layers normal and albedo | 1.62 |
-//! | without components | 1.57 |
-//! | without halves | 1.67 |
-//! | without `emission.variance`, so that emission passes through | 1.55 |
+//! | one pass (`second_radius=0`) | 1.55 |
+//! | one pass, patch 3 x 3: the paper's FIRST (`second_radius=0 patch=1`) | 1.23 |
+//! | one pass, features only: the paper's THIRD (`second_radius=0 k_color=100 tau=1e-4`) | 8.28 |
+//! | no Gaussian (`sigma_spatial=1000000`) | 1.02 |
 //!
-//! Tried while it was made, over ten other frames, and dropped: position as a third feature instead of the
+//! Tried once while it was made, over ten other frames (no command keeps these figures), and dropped: position as a third feature instead of the
 //! Gaussian (2 % better, and it needs the scene's extent); a quotient of sums over the patch instead of the mean of
 //! quotients (4 % worse); averaged weights in the first pass too (6 % worse); a third pass (2 % better
 //! for half the time again); a pyramid of two or three levels against low-frequency noise (2 % worse, 1 % worse);
