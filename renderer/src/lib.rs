@@ -23,6 +23,6 @@ mod texture;
 
 pub use effects::{Called, Counters, Effect, effects};
 pub use film::Sample;
-pub use prepare::{PrepareError, Prepared, WorldHit, WorldRay};
+pub use prepare::{PrepareError, Prepared, WorldHit, WorldRay, WorldScatter};
 pub use render::{Progress, Recorder, Rendered, TileSamples, render};
 pub use settings::{Sampler, Settings};

@@ -1,6 +1,6 @@
 //! From a scene to what paths are traced in.
 
-use glam::DVec3;
+use glam::{DVec3, Vec2};
 use limpid_scenes::{Camera as SceneCamera, Place, Scene};
 
 use crate::accel::{Accel, Hit, NONE, Ray};
@@ -8,6 +8,7 @@ use crate::effects::{Called, effects};
 use crate::geometry::Geometry;
 use crate::light::Lights;
 use crate::material::Materials;
+use crate::path::scattering;
 use crate::texture::Textures;
 
 /// Why a scene cannot be rendered.
@@ -117,13 +118,41 @@ pub struct WorldHit {
     pub shape: u32,
 }
 
+/// One draw of the BSDF where a [`WorldRay`] hits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorldScatter {
+    /// Away from the surface, unit.
+    pub wi: DVec3,
+    /// `f · cos θi / pdf`, linear Rec. 709.
+    pub weight: [f32; 3],
+    /// Per steradian; 1 for a delta lobe, where it means nothing.
+    pub pdf: f32,
+}
+
 impl Prepared {
+    /// What the BSDF at the nearest hit of `ray` makes of the draw `u` in `[0, 1)³`: the choice among its lobes, and two
+    /// for the direction. `None` where nothing is hit or nothing scattered.
+    pub fn scatter(&self, ray: WorldRay, u: [f32; 3]) -> Option<WorldScatter> {
+        let ray = self.local_ray(ray);
+        let mut hits = [Hit::MISS];
+        self.accel.closest(&[ray], &mut hits);
+        let surface = (hits[0].prim != NONE).then(|| self.geometry.surface(&ray, &hits[0]))?;
+        let (bsdf, frame) = scattering(self, &ray, &surface);
+        let sample = bsdf.sample(frame.to_local(-ray.d), u[0], Vec2::new(u[1], u[2]))?;
+        Some(WorldScatter {
+            wi: frame.to_render(sample.wi).as_dvec3(),
+            weight: sample.weight.total().to_array(),
+            pdf: sample.pdf,
+        })
+    }
+
+    fn local_ray(&self, ray: WorldRay) -> Ray {
+        Ray::new((ray.o - self.origin).as_vec3(), ray.d.normalize().as_vec3().normalize())
+    }
+
     /// The nearest hit of each ray; origin and direction are rounded to `f32` in the space of the camera.
     pub fn cast(&self, rays: &[WorldRay]) -> Vec<Option<WorldHit>> {
-        let rays: Vec<Ray> = rays
-            .iter()
-            .map(|ray| Ray::new((ray.o - self.origin).as_vec3(), ray.d.normalize().as_vec3().normalize()))
-            .collect();
+        let rays: Vec<Ray> = rays.iter().map(|&ray| self.local_ray(ray)).collect();
         let mut hits = vec![Hit::MISS; rays.len()];
         self.accel.closest(&rays, &mut hits);
         let world = |(ray, hit): (&Ray, &Hit)| {

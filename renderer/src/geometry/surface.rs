@@ -189,6 +189,12 @@ impl Frame {
         Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
     }
 
+    /// The z axis.
+    #[inline]
+    pub fn normal(self) -> Vec3 {
+        self.z
+    }
+
     /// Out of the frame.
     #[inline]
     pub fn to_render(self, v: Vec3) -> Vec3 {

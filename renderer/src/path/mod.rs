@@ -21,6 +21,7 @@ use glam::Vec3;
 #[cfg(test)]
 pub use batch::depth_first;
 pub use batch::{Batch, accumulate, trace};
+pub use shade::scattering;
 
 use crate::accel::Ray;
 use crate::camera::Camera;

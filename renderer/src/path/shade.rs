@@ -9,6 +9,7 @@ use crate::color::{Rgb, Split};
 use crate::effects::Counters;
 use crate::film::Sample;
 use crate::geometry::{Frame, Surface};
+use crate::prepare::Prepared;
 use crate::sampling::Dim;
 
 /// What a vertex gives: a light sample, and the ray along which the path goes on.
@@ -32,20 +33,13 @@ pub fn shade(
         return nothing;
     }
     let scene = cx.scene;
-    let material = scene.geometry.shapes[surface.shape as usize].material;
-    let behind = ray.d.dot(surface.ns) > 0.0;
-    let (bsdf, turned) = scene.materials.bsdf(material, surface.uv, &scene.textures, behind);
-    let normal = if turned { -surface.ns } else { surface.ns };
-    let frame = if scene.materials.is_anisotropic(material) {
-        Frame::with_tangent(normal, scene.geometry.dp_du(surface))
-    } else {
-        Frame::around(normal)
-    };
+    let (bsdf, frame) = scattering(scene, ray, surface);
     let wo = frame.to_local(-ray.d);
 
     let at_feature = !path.feature_done && !bsdf.near_delta();
     if cx.features && !path.feature_done {
-        record_features(path, surface, &bsdf, wo, normal, material.0, features);
+        let material = scene.geometry.shapes[surface.shape as usize].material;
+        record_features(path, surface, &bsdf, wo, frame.normal(), material.0, features);
     }
     path.feature_done |= at_feature;
 
@@ -96,6 +90,20 @@ pub fn shade(
     path.p = surface.p;
     counters.transmission += u64::from(sample.wi.z * wo.z < 0.0);
     Scattered { connection, next: Some(surface.spawn(frame.to_render(sample.wi).normalize())) }
+}
+
+/// The BSDF at a hit, and the frame whose +z is the shading normal on the side that the BSDF refers to.
+pub fn scattering<'a>(scene: &'a Prepared, ray: &Ray, surface: &Surface) -> (Bsdf<'a>, Frame) {
+    let material = scene.geometry.shapes[surface.shape as usize].material;
+    let behind = ray.d.dot(surface.ns) > 0.0;
+    let (bsdf, turned) = scene.materials.bsdf(material, surface.uv, &scene.textures, behind);
+    let normal = if turned { -surface.ns } else { surface.ns };
+    let frame = if scene.materials.is_anisotropic(material) {
+        Frame::with_tangent(normal, scene.geometry.dp_du(surface))
+    } else {
+        Frame::around(normal)
+    };
+    (bsdf, frame)
 }
 
 /// Writes what the feature layers hold of this vertex: at the first hit, and again at each later one until the

@@ -1,0 +1,61 @@
+//! Hard cases of materials: rows of one table, each named after its number.
+
+use std::path::Path;
+
+use glam::DVec3;
+use limpid_renderer::{Prepared, WorldRay};
+use limpid_scenes::load_str;
+
+/// Every model, over its parameters. A new one enters here.
+const BSDFS: &[&str] = &[
+    r#"<bsdf type="diffuse"/>"#,
+    r#"<bsdf type="conductor"><string name="material" value="Au"/></bsdf>"#,
+    r#"<bsdf type="roughconductor"><string name="distribution" value="ggx"/></bsdf>"#,
+    r#"<bsdf type="roughconductor"><string name="distribution" value="ggx"/><float name="alpha" value="0.001"/></bsdf>"#,
+    r#"<bsdf type="roughconductor"><string name="distribution" value="ggx"/><float name="alpha" value="1"/></bsdf>"#,
+    r#"<bsdf type="roughconductor"><float name="alpha_u" value="0.5"/><float name="alpha_v" value="0.01"/></bsdf>"#,
+    r#"<bsdf type="dielectric"/>"#,
+    r#"<bsdf type="plastic"><boolean name="nonlinear" value="true"/></bsdf>"#,
+    r#"<bsdf type="roughplastic"><string name="distribution" value="ggx"/><float name="alpha" value="0.001"/></bsdf>"#,
+    r#"<bsdf type="roughplastic"><float name="alpha" value="1"/></bsdf>"#,
+    r#"<bsdf type="twosided"><bsdf type="roughconductor"><string name="distribution" value="ggx"/></bsdf></bsdf>"#,
+];
+
+/// The corners of the cube that draws come from, and the nearest to 1.
+const DRAWS: [f32; 6] =
+    [0.0, 1.0 / (1 << 23) as f32, 0.25, 0.5, 1.0 - 1.0 / (1 << 23) as f32, 1.0f32.next_down()];
+
+#[test]
+fn hc66_uniform_draw_equals_one() {
+    for bsdf in BSDFS {
+        let xml = format!(
+            r#"<scene version="3.0.0"><sensor type="perspective"/><shape type="rectangle">{bsdf}</shape></scene>"#
+        );
+        let scene = load_str(&xml, Path::new("."), &Default::default()).expect("a sound scene");
+        assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+        let prepared = Prepared::new(&scene, 0).expect("a sound scene");
+        let mut scattered = 0;
+        for cos in [1.0, 0.5, 0.01, 1e-6] {
+            for side in [1.0, -1.0] {
+                let sin = f64::sqrt(1.0 - cos * cos);
+                let wo = DVec3::new(0.8 * sin, 0.6 * sin, side * cos);
+                let ray = WorldRay { o: 0.125 * wo, d: -wo };
+                for u in DRAWS
+                    .iter()
+                    .flat_map(|&a| DRAWS.map(|b| (a, b)))
+                    .flat_map(|(a, b)| DRAWS.map(|c| [a, b, c]))
+                {
+                    let Some(s) = prepared.scatter(ray, u) else { continue };
+                    scattered += 1;
+                    let sound = s.wi.is_finite()
+                        && (s.wi.length() - 1.0).abs() < 1e-5
+                        && s.weight.iter().all(|w| w.is_finite() && *w >= 0.0)
+                        && s.pdf.is_finite()
+                        && s.pdf >= 0.0;
+                    assert!(sound, "{bsdf}: cos {cos}, draw {u:?}: {s:?}");
+                }
+            }
+        }
+        assert!(scattered > 0, "{bsdf}: never hit, so nothing was tested");
+    }
+}
