@@ -1,6 +1,6 @@
 //! Which effects a scene calls for, and what was done for each.
 
-use limpid_scenes::{LightKind, MaterialKind, Scene};
+use limpid_scenes::{LightKind, MaterialId, MaterialKind, NormalMap, Scene};
 
 /// Something that costs time only in scenes that have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -9,19 +9,29 @@ pub enum Effect {
     Environment,
     /// Light through surfaces.
     Transmission,
+    /// Surfaces that are there in part only.
+    Alpha,
+    /// Shading normals turned by a picture of normals.
+    NormalMaps,
+    /// Shading normals turned by a picture of heights.
+    BumpMaps,
     /// Participating media: read, and refused by [`prepare`](crate::Prepared::new).
     Media,
 }
 
 impl Effect {
     /// All effects that there are.
-    pub const ALL: [Self; 3] = [Self::Environment, Self::Transmission, Self::Media];
+    pub const ALL: [Self; 6] =
+        [Self::Environment, Self::Transmission, Self::Alpha, Self::NormalMaps, Self::BumpMaps, Self::Media];
 
     /// As `limpid info` prints it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Environment => "environment",
             Self::Transmission => "transmission",
+            Self::Alpha => "alpha",
+            Self::NormalMaps => "normal maps",
+            Self::BumpMaps => "bump maps",
             Self::Media => "media",
         }
     }
@@ -41,31 +51,31 @@ pub fn effects(scene: &Scene) -> Vec<Called> {
     let environment = scene.lights.iter().find(|light| match light.kind {
         LightKind::Constant { .. } | LightKind::EnvMap { .. } => true,
     });
-    let transmission = scene.shapes.iter().find_map(|shape| {
-        let material = &scene.materials[shape.material.0 as usize];
-        transmits(&material.kind).then_some(&material.name)
-    });
+    let mut used: Vec<MaterialId> = scene.shapes.iter().map(|shape| shape.material).collect();
+    used.sort_unstable();
+    used.dedup();
+    let material = |test: fn(&MaterialKind) -> bool| {
+        let called = used.iter().find(|&&id| scene.any_material(id, test));
+        called.map(|id| &scene.materials[id.0 as usize].name)
+    };
+    let alpha = material(|kind| matches!(kind, MaterialKind::Mask { .. } | MaterialKind::Null));
+    let normal_map =
+        material(|kind| matches!(kind, MaterialKind::Perturbed { map: NormalMap::Normal(_), .. }));
+    let bump_map =
+        material(|kind| matches!(kind, MaterialKind::Perturbed { map: NormalMap::Bump { .. }, .. }));
+    let transmission = material(MaterialKind::transmits);
     let because = |what: &str, name: &String| format!("{what} \"{name}\"");
     [
         (Effect::Environment, environment.map(|l| because("emitter", &l.name))),
         (Effect::Transmission, transmission.map(|name| because("bsdf", name))),
+        (Effect::Alpha, alpha.map(|name| because("bsdf", name))),
+        (Effect::NormalMaps, normal_map.map(|name| because("bsdf", name))),
+        (Effect::BumpMaps, bump_map.map(|name| because("bsdf", name))),
         (Effect::Media, scene.media.first().map(|m| because("medium", &m.name))),
     ]
     .into_iter()
     .filter_map(|(effect, because)| because.map(|because| Called { effect, because }))
     .collect()
-}
-
-fn transmits(kind: &MaterialKind) -> bool {
-    match kind {
-        MaterialKind::Dielectric { .. } => true,
-        MaterialKind::Diffuse { .. }
-        | MaterialKind::Conductor { .. }
-        | MaterialKind::RoughConductor { .. }
-        | MaterialKind::Plastic { .. }
-        | MaterialKind::RoughPlastic { .. }
-        | MaterialKind::TwoSided { .. } => false,
-    }
 }
 
 /// What a render did.
@@ -81,6 +91,12 @@ pub struct Counters {
     pub environment: u64,
     /// Directions sampled through a surface.
     pub transmission: u64,
+    /// Paths and light samples that went straight through a hole.
+    pub alpha: u64,
+    /// Shading normals turned by a picture of normals.
+    pub normal_maps: u64,
+    /// Shading normals turned by a picture of heights.
+    pub bump_maps: u64,
 }
 
 impl Counters {
@@ -91,6 +107,9 @@ impl Counters {
         self.shadow_rays += other.shadow_rays;
         self.environment += other.environment;
         self.transmission += other.transmission;
+        self.alpha += other.alpha;
+        self.normal_maps += other.normal_maps;
+        self.bump_maps += other.bump_maps;
     }
 
     /// What was done for an effect.
@@ -98,6 +117,9 @@ impl Counters {
         match effect {
             Effect::Environment => self.environment,
             Effect::Transmission => self.transmission,
+            Effect::Alpha => self.alpha,
+            Effect::NormalMaps => self.normal_maps,
+            Effect::BumpMaps => self.bump_maps,
             Effect::Media => 0,
         }
     }

@@ -1,13 +1,19 @@
 //! From a scene's materials, with their textures and nesting, to the numbers of a [`Bsdf`] at a hit.
 
+mod flatten;
+mod perturb;
+
 use glam::Vec2;
 use limpid_scenes::{Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Scalar, Scene};
 
 use crate::bsdf::{
-    Bsdf, Coating, Conductor, Dielectric, Diffuse, Ior, Microfacet, Plastic, RoughConductor, RoughPlastic,
+    Bsdf, Coating, Conductor, Dielectric, Diffuse, Ior, Lobe, Lobes, Microfacet, Perturbation, Plastic,
+    RoughConductor, RoughPlastic, Turn,
 };
 use crate::prepare::PrepareError;
 use crate::texture::Textures;
+use flatten::{Flatten, Map, Piece, Share, Side};
+pub use perturb::Perturbed;
 
 /// The materials of a scene.
 pub struct Materials {
@@ -18,14 +24,14 @@ pub struct Materials {
 
 /// What a surface is made of.
 struct Sides {
-    front: Model,
-    /// Of a two-sided material.
-    back: Option<Model>,
+    front: Side,
+    back: Side,
+    needs_tangent: bool,
 }
 
 /// A model with what is constant over the surface worked out.
 #[derive(Clone, Copy)]
-enum Model {
+pub enum Model {
     Diffuse {
         albedo: Color,
     },
@@ -62,60 +68,75 @@ enum Model {
 }
 
 impl Materials {
-    /// Makes the tables.
+    /// Makes the lists and the tables.
     ///
     /// # Errors
     ///
-    /// An index of refraction that is not a positive number, and a two-sided material around one that has two sides
-    /// already.
+    /// An index of refraction that is not a positive number, a two-sided material around one that has two sides
+    /// already, a normal map in a normal map, and a blend of too many BSDFs.
     pub fn prepare(scene: &Scene) -> Result<Self, PrepareError> {
         let mut coatings = Coatings::default();
         let mut materials = Vec::with_capacity(scene.materials.len());
-        for material in &scene.materials {
-            let mut model = |id: MaterialId| {
-                let inner = &scene.materials[id.0 as usize];
-                match inner.kind {
-                    MaterialKind::TwoSided { .. } | MaterialKind::Dielectric { .. } => Err(error(
-                        material,
-                        format!("\"{}\" inside it has two sides already", inner.name),
-                        "use the inner bsdf without `twosided`",
-                    )),
-                    _ => prepare(inner, &mut coatings),
-                }
-            };
-            materials.push(match material.kind {
-                MaterialKind::TwoSided { front, back } => {
-                    Sides { front: model(front)?, back: Some(model(back)?) }
-                }
-                _ => Sides { front: prepare(material, &mut coatings)?, back: None },
-            });
+        for outer in (0..scene.materials.len() as u32).map(MaterialId) {
+            let [front, back] = Flatten { scene, coatings: &mut coatings, outer }.sides()?;
+            let mut pieces = front.pieces.iter().chain(&back.pieces);
+            let needs_tangent = pieces.any(|piece| piece.map.is_some() || piece.model.is_anisotropic());
+            materials.push(Sides { front, back, needs_tangent });
         }
         Ok(Self { materials, coatings: coatings.tables })
     }
 
     /// Whether the direction of the surface's u counts.
     #[inline]
-    pub fn is_anisotropic(&self, material: MaterialId) -> bool {
-        let anisotropic = |model: &Model| matches!(model, Model::RoughConductor { alpha_u, alpha_v, .. } if alpha_u != alpha_v);
-        let Sides { front, back } = &self.materials[material.0 as usize];
-        anisotropic(front) || back.as_ref().is_some_and(anisotropic)
+    pub fn needs_tangent(&self, material: MaterialId) -> bool {
+        self.materials[material.0 as usize].needs_tangent
     }
 
-    /// The BSDF at a hit, and whether it refers to the other side: the caller then turns the normal over.
-    /// `behind`: the surface is seen from the side away from its shading normal.
+    /// Whether some of the material lets light straight through.
     #[inline]
-    pub fn bsdf(
+    pub fn has_holes(&self, material: MaterialId) -> bool {
+        let Sides { front, back, .. } = &self.materials[material.0 as usize];
+        !front.holes.is_empty() || !back.holes.is_empty()
+    }
+
+    /// Share of the light that goes straight through, in [0, 1]. `behind`: seen from the side away from the normal.
+    #[inline]
+    pub fn hole(&self, material: MaterialId, uv: Vec2, textures: &Textures, behind: bool) -> f32 {
+        let holes = &self.side(material, behind).holes;
+        if holes.is_empty() {
+            return 0.0;
+        }
+        holes.iter().map(|hole| share(hole, uv, textures)).sum::<f32>().min(1.0)
+    }
+
+    /// What scatters at a hit where the share `hole` is not there; the weights refer to the rest. `perturbed` makes of a
+    /// normal map and the question whether the surface is turned over before it what the map does at the hit.
+    #[inline]
+    pub fn lobes(
         &self,
         material: MaterialId,
         uv: Vec2,
         textures: &Textures,
         behind: bool,
-    ) -> (Bsdf<'_>, bool) {
-        let sides = &self.materials[material.0 as usize];
-        match &sides.back {
-            Some(back) if behind => (self.at(back, uv, textures), true),
-            _ => (self.at(&sides.front, uv, textures), false),
+        hole: f32,
+        mut perturbed: impl FnMut(&Map, bool) -> Perturbation,
+    ) -> Lobes<'_> {
+        let mut lobes = Lobes::default();
+        let there = 1.0 - hole;
+        for Piece { share: of_piece, before, map, after, model } in &self.side(material, behind).pieces {
+            let weight =
+                if of_piece.factors.is_empty() { 1.0 } else { share(of_piece, uv, textures) / there };
+            let map = map.as_ref().map(|map| perturbed(map, *before));
+            let turn = Turn { before: *before, map, after: *after };
+            lobes.push(Lobe { weight: weight.min(1.0), turn, bsdf: self.at(model, uv, textures) });
         }
+        lobes
+    }
+
+    #[inline]
+    fn side(&self, material: MaterialId, behind: bool) -> &Side {
+        let Sides { front, back, .. } = &self.materials[material.0 as usize];
+        if behind { back } else { front }
     }
 
     #[inline]
@@ -148,9 +169,25 @@ impl Materials {
     }
 }
 
+impl Model {
+    fn is_anisotropic(&self) -> bool {
+        matches!(self, Self::RoughConductor { alpha_u, alpha_v, .. } if alpha_u != alpha_v)
+    }
+}
+
+/// The product, each factor brought into [0, 1]; NaN counts as 0.
+#[inline]
+fn share(share: &Share, uv: Vec2, textures: &Textures) -> f32 {
+    let factor = |&(scalar, complement): &(Scalar, bool)| {
+        let x = textures.scalar(scalar, uv).max(0.0).min(1.0);
+        if complement { 1.0 - x } else { x }
+    };
+    share.factors.iter().map(factor).product()
+}
+
 /// Coatings with what each was made from.
 #[derive(Default)]
-struct Coatings {
+pub struct Coatings {
     tables: Vec<Coating>,
     keys: Vec<(Distribution, f32, f32)>,
 }
@@ -219,7 +256,12 @@ fn prepare(material: &Material, coatings: &mut Coatings) -> Result<Model, Prepar
             specular: specular_reflectance,
             nonlinear,
         },
-        MaterialKind::TwoSided { .. } => unreachable!("`Materials::prepare` takes two-sided materials apart"),
+        MaterialKind::TwoSided { .. }
+        | MaterialKind::Null
+        | MaterialKind::Mask { .. }
+        | MaterialKind::Blend { .. }
+        | MaterialKind::Mixture { .. }
+        | MaterialKind::Perturbed { .. } => unreachable!("`Flatten` takes what is made of others apart"),
     })
 }
 

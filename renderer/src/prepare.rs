@@ -4,11 +4,11 @@ use glam::{DVec3, Vec2};
 use limpid_scenes::{Camera as SceneCamera, Place, Scene};
 
 use crate::accel::{Accel, Hit, NONE, Ray};
-use crate::effects::{Called, effects};
-use crate::geometry::Geometry;
+use crate::effects::{Called, Counters, effects};
+use crate::geometry::{Geometry, Surface};
 use crate::light::Lights;
 use crate::material::Materials;
-use crate::path::scattering;
+use crate::path::Scattering;
 use crate::texture::Textures;
 
 /// Why a scene cannot be rendered.
@@ -35,6 +35,8 @@ pub struct Prepared {
     pub(crate) camera: SceneCamera,
     /// The camera's position in world space, where the origin of render space is.
     pub(crate) origin: DVec3,
+    /// Some surface lets light straight through.
+    pub(crate) has_holes: bool,
     effects: Vec<Called>,
 }
 
@@ -77,7 +79,9 @@ impl Prepared {
         let textures = Textures::prepare(scene);
         let materials = Materials::prepare(scene)?;
         let lights = Lights::new(scene, &geometry, &textures, accel.radius());
-        Ok(Self { geometry, accel, materials, textures, lights, camera, origin, effects: effects(scene) })
+        let has_holes = geometry.shapes.iter().any(|shape| materials.has_holes(shape.material));
+        let effects = effects(scene);
+        Ok(Self { geometry, accel, materials, textures, lights, camera, origin, has_holes, effects })
     }
 
     /// The effects that the scene calls for.
@@ -130,20 +134,30 @@ pub struct WorldScatter {
 }
 
 impl Prepared {
-    /// What the BSDF at the nearest hit of `ray` makes of the draw `u` in `[0, 1)³`: the choice among its lobes, and two
+    /// What the surface at the nearest hit of `ray`, where it is there, makes of the draw `u` in `[0, 1)³`: the choice among its lobes, and two
     /// for the direction. `None` where nothing is hit or nothing scattered.
     pub fn scatter(&self, ray: WorldRay, u: [f32; 3]) -> Option<WorldScatter> {
         let ray = self.local_ray(ray);
         let mut hits = [Hit::MISS];
         self.accel.closest(&[ray], &mut hits);
         let surface = (hits[0].prim != NONE).then(|| self.geometry.surface(&ray, &hits[0]))?;
-        let (bsdf, frame) = scattering(self, &ray, &surface);
-        let sample = bsdf.sample(frame.to_local(-ray.d), u[0], Vec2::new(u[1], u[2]))?;
+        let scattering = Scattering::new(self, &ray, &surface);
+        let sample = scattering.lobes(self, &surface, &mut Counters::default()).sample(
+            scattering.wo,
+            u[0],
+            Vec2::new(u[1], u[2]),
+        )?;
         Some(WorldScatter {
-            wi: frame.to_render(sample.wi).as_dvec3(),
+            wi: scattering.frame.to_render(sample.wi).as_dvec3(),
             weight: sample.weight.total().to_array(),
             pdf: sample.pdf,
         })
+    }
+
+    /// Share of light that goes straight through where `ray` hits.
+    pub(crate) fn hole(&self, ray: &Ray, surface: &Surface) -> f32 {
+        let material = self.geometry.shapes[surface.shape as usize].material;
+        self.materials.hole(material, surface.uv, &self.textures, ray.d.dot(surface.ns) > 0.0)
     }
 
     fn local_ray(&self, ray: WorldRay) -> Ray {

@@ -30,6 +30,7 @@ mod error;
 mod files;
 mod image;
 mod load;
+mod materials;
 mod mesh;
 mod mitsuba;
 mod nearest;

@@ -10,6 +10,7 @@ mod document;
 mod emitters;
 mod guard;
 mod integrator;
+mod nesting;
 mod object;
 mod parameters;
 mod shapes;

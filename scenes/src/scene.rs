@@ -393,6 +393,54 @@ pub enum MaterialKind {
         /// Seen from behind; often the same.
         back: MaterialId,
     },
+    /// Lets all light straight through.
+    Null,
+    /// A surface that is there in part only; the rest lets light straight through.
+    Mask {
+        /// The part that is there, in \[0, 1\].
+        opacity: Scalar,
+        /// What that part is made of.
+        inner: MaterialId,
+    },
+    /// `(1 − weight) · first + weight · second`.
+    Blend {
+        /// In \[0, 1\].
+        weight: Scalar,
+        /// Where the weight is 0.
+        first: MaterialId,
+        /// Where the weight is 1.
+        second: MaterialId,
+    },
+    /// A weighted sum; what the weights lack to 1 absorbs.
+    Mixture {
+        /// Weights, none negative, of sum at most 1.
+        parts: Vec<(f32, MaterialId)>,
+    },
+    /// A material whose shading normal a texture turns.
+    Perturbed {
+        /// How.
+        map: NormalMap,
+        /// A normal on the wrong side of the surface for the viewer is turned half round it (Schüssler et al. 2017).
+        flip_invalid: bool,
+        /// Fades the light out towards its terminator (Conty Estevez et al. 2019).
+        shadowing: bool,
+        /// What is perturbed.
+        inner: MaterialId,
+    },
+}
+
+/// What turns a shading normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NormalMap {
+    /// The normal in the shading frame whose x axis is ∂p/∂u, as the colour (n + 1) / 2.
+    Normal(Color),
+    /// A height above the surface, in its own unit of length.
+    Bump {
+        /// The height.
+        height: Scalar,
+        /// A factor on it.
+        scale: f32,
+    },
 }
 
 /// Complex index of refraction η + ik, relative to the outside. May be textured.

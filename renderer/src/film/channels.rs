@@ -63,8 +63,8 @@ impl Sample {
 
     /// The visibility of the light at the feature hit, where a light sample was drawn there.
     #[inline]
-    pub fn set_visibility(&mut self, visible: bool) {
-        self.set(Layer::Visibility, [f32::from(u8::from(visible))]);
+    pub fn set_visibility(&mut self, share: f32) {
+        self.set(Layer::Visibility, [share]);
         self.values[LIT] = 1.0;
     }
 

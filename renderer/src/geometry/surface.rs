@@ -132,25 +132,34 @@ impl Geometry {
         }
     }
 
-    /// ∂p/∂u, not normalised: the direction that anisotropy and normal maps refer to. Zero where it is undefined.
-    pub fn dp_du(&self, surface: &Surface) -> Vec3 {
+    /// ∂p/∂u and ∂p/∂v: the directions that anisotropy and normal maps refer to. Zero where they are undefined.
+    pub fn dp_duv(&self, surface: &Surface) -> [Vec3; 2] {
         let prim = surface.prim;
         if (prim as usize) < self.triangles.len() {
             let [a, b, c] = self.corners(prim).map(Vec3::as_dvec3);
             let [uv_a, uv_b, uv_c] = self.corner_uvs(prim).map(Vec2::as_dvec2);
             let (e, f, du, dv) = (b - a, c - a, uv_b - uv_a, uv_c - uv_a);
             let det = du.x * dv.y - du.y * dv.x;
-            return ((e * dv.y - f * du.y) * det.signum()).normalize_or_zero().as_vec3();
+            return [(e * dv.y - f * du.y) / det, (f * du.x - e * dv.x) / det].map(finite);
         }
         let analytic = &self.analytics[prim as usize - self.triangles.len()];
         let q = analytic.frame.object_from_render.transform_point3(surface.p.as_dvec3());
-        let tangent = match analytic.kind {
-            AnalyticKind::Sphere => DVec3::new(-q.y, q.x, 0.0),
-            AnalyticKind::Disk => DVec3::new(q.x, q.y, 0.0),
+        let r = q.x.hypot(q.y);
+        let around = DVec3::new(-q.y, q.x, 0.0) * TAU;
+        let outwards = DVec3::new(q.x, q.y, 0.0) / r;
+        let [du, dv] = match analytic.kind {
+            AnalyticKind::Sphere => [around, (outwards * q.z - DVec3::Z * r) * PI],
+            AnalyticKind::Disk => [outwards, around],
         };
         let linear: DMat3 = analytic.frame.render_from_object.matrix3;
-        (linear * tangent).normalize_or_zero().as_vec3()
+        [linear * du, linear * dv].map(finite)
     }
+}
+
+/// In `f32`; 0 where it is not finite there.
+fn finite(v: DVec3) -> Vec3 {
+    let v = v.as_vec3();
+    if v.is_finite() { v } else { Vec3::ZERO }
 }
 
 /// An orthonormal frame whose z axis is a shading normal.
@@ -187,12 +196,6 @@ impl Frame {
     #[inline]
     pub fn to_local(self, v: Vec3) -> Vec3 {
         Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
-    }
-
-    /// The z axis.
-    #[inline]
-    pub fn normal(self) -> Vec3 {
-        self.z
     }
 
     /// Out of the frame.

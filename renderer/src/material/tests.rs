@@ -50,14 +50,90 @@ fn of(kinds: Vec<MaterialKind>) -> (Scene, Result<Materials, PrepareError>) {
 fn each_side_of_a_two_sided_material_is_lit_from_its_own_side() {
     let (scene, materials) = of(vec![diffuse(0.2), diffuse(0.7), two_sided(0, 1)]);
     let (materials, textures) = (materials.unwrap(), Textures::prepare(&scene));
-    let at = |id, behind| materials.bsdf(MaterialId(id), Vec2::ZERO, &textures, behind);
-    let albedo = |bsdf: Bsdf| bsdf.features(Vec3::Z).albedo.x;
-    let (front, turned) = at(2, false);
-    assert_eq!((albedo(front), turned), (0.2, false));
-    let (back, turned) = at(2, true);
-    assert_eq!((albedo(back), turned), (0.7, true));
+    let albedo = |id, behind| {
+        let lobes =
+            materials.lobes(MaterialId(id), Vec2::ZERO, &textures, behind, 0.0, |_, _| unreachable!());
+        let wo = if behind { Vec3::NEG_Z } else { Vec3::Z };
+        (lobes.features(wo).albedo.x, lobes.normal())
+    };
+    assert_eq!(albedo(2, false), (0.2, Vec3::Z));
+    assert_eq!(albedo(2, true), (0.7, Vec3::NEG_Z));
     // One-sided: nobody turns it over, so that it is black from behind.
-    assert!(!at(0, true).1);
+    assert_eq!(albedo(0, true), (0.0, Vec3::Z));
+}
+
+/// Albedos and shares of the BSDFs on one side, and the hole.
+fn pieces(scene: &Scene, materials: &Materials, id: u32, behind: bool) -> (Vec<(f32, f32)>, f32) {
+    let textures = Textures::prepare(scene);
+    let hole = materials.hole(MaterialId(id), Vec2::ZERO, &textures, behind);
+    let side = materials.side(MaterialId(id), behind);
+    let pieces = side.pieces.iter().map(|piece| {
+        let Model::Diffuse { albedo } = piece.model else { panic!("only diffuse ones here") };
+        (textures.color(albedo, Vec2::ZERO).x, share(&piece.share, Vec2::ZERO, &textures))
+    });
+    (pieces.collect(), hole)
+}
+
+fn blend(weight: f32, first: u32, second: u32) -> MaterialKind {
+    MaterialKind::Blend {
+        weight: Scalar::Constant(weight),
+        first: MaterialId(first),
+        second: MaterialId(second),
+    }
+}
+
+fn mask(opacity: f32, inner: u32) -> MaterialKind {
+    MaterialKind::Mask { opacity: Scalar::Constant(opacity), inner: MaterialId(inner) }
+}
+
+#[test]
+fn nesting_becomes_a_list_of_shares() {
+    let (scene, materials) = of(vec![
+        diffuse(0.2),
+        diffuse(0.6),
+        two_sided(0, 1),
+        mask(0.25, 2),
+        blend(0.5, 3, 1),
+        MaterialKind::Null,
+        blend(0.75, 4, 5),
+        MaterialKind::Mixture { parts: vec![(0.25, MaterialId(0)), (0.5, MaterialId(1))] },
+    ]);
+    let materials = materials.unwrap();
+    let of = |id, behind| pieces(&scene, &materials, id, behind);
+    assert_eq!(of(3, false), (vec![(0.2, 0.25)], 0.75));
+    assert_eq!(of(3, true), (vec![(0.6, 0.25)], 0.75));
+    assert_eq!(of(4, false), (vec![(0.2, 0.125), (0.6, 0.5)], 0.375));
+    assert_eq!(of(4, true), (vec![(0.6, 0.125)], 0.375));
+    assert_eq!(of(5, false), (vec![], 1.0));
+    assert_eq!(of(6, false), (vec![(0.2, 0.03125), (0.6, 0.125)], 0.84375));
+    assert_eq!(of(7, false), (vec![(0.2, 0.25), (0.6, 0.5)], 0.0));
+    // Out of range shares are brought into it.
+    assert_eq!(
+        share(&Share::default().times(Scalar::Constant(7.0), false), Vec2::ZERO, &Textures::prepare(&scene)),
+        1.0
+    );
+    let nan = Share::default().times(Scalar::Constant(f32::NAN), false);
+    assert_eq!(share(&nan, Vec2::ZERO, &Textures::prepare(&scene)), 0.0);
+}
+
+#[test]
+fn too_many_bsdfs_are_an_error_and_no_hang() {
+    let mut kinds = vec![diffuse(0.2)];
+    kinds.extend((0..40).map(|id| blend(0.5, id, id)));
+    let error = of(kinds).1.err().expect("2^40 of them");
+    assert!(error.to_string().contains("more than 8 bsdfs"), "{error}");
+}
+
+#[test]
+fn maps_do_not_nest() {
+    let bump = |inner| MaterialKind::Perturbed {
+        map: limpid_scenes::NormalMap::Bump { height: Scalar::Constant(1.0), scale: 1.0 },
+        flip_invalid: true,
+        shadowing: true,
+        inner: MaterialId(inner),
+    };
+    let error = of(vec![diffuse(0.2), bump(0), bump(1)]).1.err().expect("nested");
+    assert!(error.to_string().contains("inside another"), "{error}");
 }
 
 #[test]
@@ -87,6 +163,6 @@ fn like_coatings_share_a_table() {
 fn only_unequal_widths_need_the_direction_of_u() {
     let kinds = vec![rough_conductor(0.1, 0.1), rough_conductor(0.1, 0.2), diffuse(0.5), two_sided(2, 1)];
     let materials = of(kinds).1.unwrap();
-    let anisotropic: Vec<bool> = (0..4).map(|i| materials.is_anisotropic(MaterialId(i))).collect();
+    let anisotropic: Vec<bool> = (0..4).map(|i| materials.needs_tangent(MaterialId(i))).collect();
     assert_eq!(anisotropic, [false, true, false, true]);
 }

@@ -2,7 +2,7 @@
 
 use limpid_frame::Layer;
 
-use super::connect::connect;
+use super::connect::{connect, through_holes};
 use super::emit::{emit_background, emit_surface};
 use super::generate::generate;
 use super::shade::shade;
@@ -30,6 +30,8 @@ pub struct Batch {
     connected: Vec<u32>,
     shadow_rays: Vec<Ray>,
     blocked: Vec<bool>,
+    /// Of the light along each connection.
+    shares: Vec<f32>,
     /// What was done.
     pub counters: Counters,
 }
@@ -101,13 +103,21 @@ impl Batch {
     }
 
     fn connect(&mut self, cx: &Context) {
-        self.shadow_rays.clear();
-        self.shadow_rays.extend(self.connections.iter().map(|c| c.ray));
-        self.blocked.resize(self.shadow_rays.len(), false);
-        cx.scene.accel.occluded(&self.shadow_rays, &mut self.blocked);
-        self.counters.shadow_rays += self.shadow_rays.len() as u64;
-        for ((&i, connection), &blocked) in self.connected.iter().zip(&self.connections).zip(&self.blocked) {
-            connect(&mut self.paths[i as usize], connection, blocked, &mut self.samples[i as usize]);
+        self.shares.resize(self.connections.len(), 1.0);
+        if cx.scene.has_holes {
+            through_holes(cx, &self.connections, &mut self.shares, &mut self.counters);
+        } else {
+            self.shadow_rays.clear();
+            self.shadow_rays.extend(self.connections.iter().map(|c| c.ray));
+            self.blocked.resize(self.shadow_rays.len(), false);
+            cx.scene.accel.occluded(&self.shadow_rays, &mut self.blocked);
+            self.counters.shadow_rays += self.shadow_rays.len() as u64;
+            for (share, &blocked) in self.shares.iter_mut().zip(&self.blocked) {
+                *share = if blocked { 0.0 } else { 1.0 };
+            }
+        }
+        for ((&i, connection), &share) in self.connected.iter().zip(&self.connections).zip(&self.shares) {
+            connect(&mut self.paths[i as usize], connection, share, &mut self.samples[i as usize]);
         }
     }
 
@@ -180,8 +190,14 @@ pub fn depth_first(cx: &Context, pixel: [u32; 2], index: u32) -> Sample {
         let Some(surface) = surface else { break };
         let scattered = shade(cx, &mut path, &ray, &surface, &mut sample, &mut counters);
         if let Some(connection) = scattered.connection {
-            cx.scene.accel.occluded(&[connection.ray], &mut blocked);
-            connect(&mut path, &connection, blocked[0], &mut sample);
+            let mut share = [1.0];
+            if cx.scene.has_holes {
+                through_holes(cx, &[connection], &mut share, &mut counters);
+            } else {
+                cx.scene.accel.occluded(&[connection.ray], &mut blocked);
+                share[0] = if blocked[0] { 0.0 } else { 1.0 };
+            }
+            connect(&mut path, &connection, share[0], &mut sample);
         }
         match scattered.next {
             Some(next) if survive(cx, &mut path) => ray = next,

@@ -28,6 +28,8 @@ pub fn generate(cx: &Context, pixel: [u32; 2], index: u32, features: &mut Sample
         eta_scale: 1.0,
         delta: true,
         split: false,
+        straight: false,
+        met: false,
         feature_done: false,
         rejected: false,
         weight,

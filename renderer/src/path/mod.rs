@@ -21,7 +21,7 @@ use glam::Vec3;
 #[cfg(test)]
 pub use batch::depth_first;
 pub use batch::{Batch, accumulate, trace};
-pub use shade::scattering;
+pub use shade::Scattering;
 
 use crate::accel::Ray;
 use crate::camera::Camera;
@@ -64,6 +64,10 @@ pub struct Path {
     pub delta: bool,
     /// A non-delta vertex has been met.
     pub split: bool,
+    /// The last event let the path go straight on: a hole in a surface, which counts as no vertex.
+    pub straight: bool,
+    /// A surface has been met that was there.
+    pub met: bool,
     /// The feature hit has been met.
     pub feature_done: bool,
     /// A contribution was not finite and was replaced by 0.
@@ -96,6 +100,8 @@ pub struct Connection {
     pub through: Split,
     /// Emitted towards the vertex.
     pub radiance: Rgb,
+    /// Of the path that ends at the light.
+    pub edges: u32,
     /// The vertex is the feature hit.
     pub at_feature: bool,
 }

@@ -1,14 +1,17 @@
 //! Scattering at a surface: the features, a light sample, and the direction in which the path goes on.
 
+use glam::Vec3;
 use limpid_frame::Layer;
+use limpid_scenes::{MaterialId, NormalMap};
 
 use super::{Connection, Context, Path, mis_weight};
 use crate::accel::Ray;
-use crate::bsdf::Bsdf;
+use crate::bsdf::Lobes;
 use crate::color::{Rgb, Split};
 use crate::effects::Counters;
 use crate::film::Sample;
 use crate::geometry::{Frame, Surface};
+use crate::material::Perturbed;
 use crate::prepare::Prepared;
 use crate::sampling::Dim;
 
@@ -29,21 +32,37 @@ pub fn shade(
     counters: &mut Counters,
 ) -> Scattered {
     let nothing = Scattered { connection: None, next: None };
-    if cx.settings.max_depth.is_some_and(|max| path.edges >= max) && path.feature_done {
+    let last = cx.settings.max_depth.is_some_and(|max| path.edges >= max);
+    if last && path.feature_done {
         return nothing;
     }
     let scene = cx.scene;
-    let (bsdf, frame) = scattering(scene, ray, surface);
-    let wo = frame.to_local(-ray.d);
+    let scattering = Scattering::new(scene, ray, surface);
+    let Scattering { frame, wo, hole, .. } = scattering;
+    let bounce = path.edges - 1;
+    let [mut lobe, u, v] = path.sampler.draw3(Dim::Bsdf(bounce));
+    path.straight = lobe < hole;
+    if path.straight {
+        counters.alpha += 1;
+        if last {
+            return nothing;
+        }
+        path.edges += 1;
+        return Scattered { connection: None, next: Some(surface.spawn(ray.d)) };
+    }
+    if hole > 0.0 {
+        lobe = ((lobe - hole) / (1.0 - hole)).clamp(0.0, 1.0f32.next_down());
+    }
+    let bsdf = scattering.lobes(scene, surface, counters);
 
     let at_feature = !path.feature_done && !bsdf.near_delta();
     if cx.features && !path.feature_done {
-        let material = scene.geometry.shapes[surface.shape as usize].material;
-        record_features(path, surface, &bsdf, wo, frame.normal(), material.0, features);
+        let normal = frame.to_render(bsdf.normal());
+        record_features(path, surface, &bsdf, wo, normal, scattering.material.0, features);
     }
     path.feature_done |= at_feature;
 
-    if cx.settings.max_depth.is_some_and(|max| path.edges >= max) {
+    if last {
         return nothing;
     }
     // Before the first non-delta vertex the throughput is whole; there it is split by the lobe.
@@ -51,7 +70,6 @@ pub fn shade(
     let through = |path: &Path, scattered: Split| {
         if path.split { path.beta * scattered.total() } else { scattered * whole }
     };
-    let bounce = path.edges - 1;
 
     let mut connection = None;
     if bsdf.has_non_delta() {
@@ -64,13 +82,13 @@ pub fn shade(
                     ray: Ray { t_max: light.t_max, skip: light.skip, ..surface.spawn(light.wi) },
                     through: through(path, value.f_cos * weight),
                     radiance: light.radiance,
+                    edges: path.edges + 1,
                     at_feature,
                 });
             }
         }
     }
 
-    let [lobe, u, v] = path.sampler.draw3(Dim::Bsdf(bounce));
     let sampled = bsdf.sample(wo, lobe, glam::Vec2::new(u, v));
     let Some(sample) = sampled.filter(|s| !s.weight.is_zero()) else {
         path.split |= bsdf.has_non_delta();
@@ -92,32 +110,62 @@ pub fn shade(
     Scattered { connection, next: Some(surface.spawn(frame.to_render(sample.wi).normalize())) }
 }
 
-/// The BSDF at a hit, and the frame whose +z is the shading normal on the side that the BSDF refers to.
-pub fn scattering<'a>(scene: &'a Prepared, ray: &Ray, surface: &Surface) -> (Bsdf<'a>, Frame) {
-    let material = scene.geometry.shapes[surface.shape as usize].material;
-    let behind = ray.d.dot(surface.ns) > 0.0;
-    let (bsdf, turned) = scene.materials.bsdf(material, surface.uv, &scene.textures, behind);
-    let normal = if turned { -surface.ns } else { surface.ns };
-    let frame = if scene.materials.is_anisotropic(material) {
-        Frame::with_tangent(normal, scene.geometry.dp_du(surface))
-    } else {
-        Frame::around(normal)
-    };
-    (bsdf, frame)
+/// What a hit is made of, before its BSDFs are asked for.
+pub struct Scattering {
+    /// Around the shading normal.
+    pub frame: Frame,
+    /// In that frame.
+    pub wo: Vec3,
+    /// Share of the light that goes straight through.
+    pub hole: f32,
+    material: MaterialId,
+}
+
+impl Scattering {
+    /// Looks at the surface that `ray` hit.
+    #[inline]
+    pub fn new(scene: &Prepared, ray: &Ray, surface: &Surface) -> Self {
+        let material = scene.geometry.shapes[surface.shape as usize].material;
+        let frame = if scene.materials.needs_tangent(material) {
+            let [du, _] = scene.geometry.dp_duv(surface);
+            Frame::with_tangent(surface.ns, du.as_dvec3().normalize_or_zero().as_vec3())
+        } else {
+            Frame::around(surface.ns)
+        };
+        let wo = frame.to_local(-ray.d);
+        let hole = scene.materials.hole(material, surface.uv, &scene.textures, wo.z < 0.0);
+        Self { frame, wo, hole, material }
+    }
+
+    /// The BSDFs of what is there.
+    #[inline]
+    pub fn lobes<'a>(&self, scene: &'a Prepared, surface: &Surface, counters: &mut Counters) -> Lobes<'a> {
+        let Self { frame, wo, hole, material } = *self;
+        scene.materials.lobes(material, surface.uv, &scene.textures, wo.z < 0.0, hole, |map, over| {
+            match map.map {
+                NormalMap::Normal(_) => counters.normal_maps += 1,
+                NormalMap::Bump { .. } => counters.bump_maps += 1,
+            }
+            let dp_duv = scene.geometry.dp_duv(surface).map(|d| frame.to_local(d));
+            let hit = Perturbed { uv: surface.uv, wo, ng: frame.to_local(surface.ng), dp_duv };
+            hit.by(map, over, &scene.textures)
+        })
+    }
 }
 
 /// Writes what the feature layers hold of this vertex: at the first hit, and again at each later one until the
 /// feature hit, so that a chain of mirrors that never ends keeps its first.
 fn record_features(
-    path: &Path,
+    path: &mut Path,
     surface: &Surface,
-    bsdf: &Bsdf,
-    wo: glam::Vec3,
-    normal: glam::Vec3,
+    bsdf: &Lobes,
+    wo: Vec3,
+    normal: Vec3,
     material: u32,
     features: &mut Sample,
 ) {
-    if path.edges == 1 {
+    if !path.met {
+        path.met = true;
         // The camera is the origin of render space.
         features.set(Layer::Depth, [surface.p.as_dvec3().length() as f32]);
         features.set(Layer::Hit, [1.0]);

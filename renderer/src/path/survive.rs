@@ -10,8 +10,8 @@ const FLOOR: f32 = 0.5;
 const LONG: u32 = 1000;
 const MOST_WHEN_LONG: f32 = 0.95;
 
-/// Whether a path goes on; if so its throughput makes up for those that don't. Not asked after a delta vertex, which
-/// cost no light sample and says nothing about where the light is.
+/// Whether a path goes on; if so its throughput makes up for those that don't. Not asked after a delta vertex or a
+/// hole, which cost no light sample and say nothing about where the light is.
 #[inline]
 pub fn survive(cx: &Context, path: &mut Path) -> bool {
     let beta = path.beta.total();
@@ -20,7 +20,7 @@ pub fn survive(cx: &Context, path: &mut Path) -> bool {
         return false;
     }
     let endless = cx.settings.max_depth.is_none() && path.edges > LONG;
-    if (path.edges <= cx.settings.rr_depth || path.delta) && !endless {
+    if (path.edges <= cx.settings.rr_depth || path.delta || path.straight) && !endless {
         return true;
     }
     let most = if endless { MOST_WHEN_LONG } else { 1.0 };

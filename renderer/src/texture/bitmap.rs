@@ -33,6 +33,23 @@ impl Bitmap {
             }
         }
     }
+
+    /// ∂/∂u and ∂/∂v of the interpolated colour; 0 without interpolation.
+    pub fn gradient(&self, uv: DVec2) -> [Rgb; 2] {
+        let Image { width, height, .. } = *self.image;
+        if width == 0 || height == 0 || self.filter == TexelFilter::Nearest {
+            return [Rgb::ZERO; 2];
+        }
+        let (x, y) = (wrap(uv.x, self.wrap) * f64::from(width), wrap(uv.y, self.wrap) * f64::from(height));
+        let ([x0, x1], s) = neighbours(x, width, self.wrap);
+        let ([y0, y1], t) = neighbours(y, height, self.wrap);
+        let [[a, b], [c, d]] = [y0, y1].map(|y| [x0, x1].map(|x| texel(&self.image, x, y)));
+        // where the picture is mirrored, it runs backwards
+        let sign = |x: f64| if self.wrap == WrapMode::Mirror && fract(0.5 * x) > 0.5 { -1.0 } else { 1.0 };
+        let du = ((b - a) * (1.0 - t) + (d - c) * t) * (width as f32 * sign(uv.x));
+        let dv = ((c - a) * (1.0 - s) + (d - b) * s) * (height as f32 * sign(uv.y));
+        [du, dv]
+    }
 }
 
 /// Brings a coordinate into [0, 1].

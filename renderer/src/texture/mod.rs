@@ -62,6 +62,19 @@ impl Textures {
         }
     }
 
+    /// ∂/∂(u, v) of the number at a surface's `uv`: of what is interpolated between texels; else 0.
+    pub fn gradient(&self, scalar: Scalar, uv: Vec2) -> Vec2 {
+        let Scalar::Texture(id) = scalar else { return Vec2::ZERO };
+        let Some(texture) = self.textures.get(id.0 as usize) else { return Vec2::ZERO };
+        let m = texture.uv_from_surface;
+        let Kind::Bitmap(bitmap) = &texture.kind else { return Vec2::ZERO };
+        let [ds, dt] =
+            bitmap.gradient((m * uv.as_dvec2().extend(1.0)).truncate()).map(luminance).map(f64::from);
+        let gradient =
+            DVec2::new(ds * m.x_axis.x + dt * m.x_axis.y, ds * m.y_axis.x + dt * m.y_axis.y).as_vec2();
+        if gradient.is_finite() { gradient } else { Vec2::ZERO }
+    }
+
     #[inline]
     fn color_at(&self, color: Color, uv: DVec2, depth: u32) -> Rgb {
         match color {

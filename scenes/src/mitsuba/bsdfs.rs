@@ -2,6 +2,7 @@
 
 use super::Reader;
 use super::document::ElementId;
+use super::nesting::NESTING;
 use super::object::Object;
 use super::survey::{BSDFS, NAMED_IORS, Standing};
 use super::value::shorten;
@@ -40,6 +41,7 @@ impl Reader<'_> {
                 Ok(inner) => return Ok(inner),
                 Err(sides) => sides,
             },
+            Standing::Now if NESTING.contains(&kind) => self.nesting(&object, kind)?,
             Standing::Now => self.model(&object, kind)?,
         };
         let name = self.name(&object, kind, self.scene.materials.len());
@@ -96,14 +98,13 @@ impl Reader<'_> {
                 return Err(object.error(problem, "nest one bsdf for both sides, or one for each"));
             }
         };
-        let is =
-            |id: MaterialId, test: fn(&MaterialKind) -> bool| test(&self.scene.materials[id.0 as usize].kind);
-        if is(front, |kind| matches!(kind, MaterialKind::Dielectric { .. }))
-            || is(back, |kind| matches!(kind, MaterialKind::Dielectric { .. }))
+        if let Some(glass) =
+            [front, back].into_iter().find(|&id| self.scene.any_material(id, MaterialKind::transmits))
         {
-            let glass =
-                if is(front, |kind| matches!(kind, MaterialKind::Dielectric { .. })) { front } else { back };
-            self.warn(object.id, "glass has two sides by itself: twosided is left out");
+            self.warn(
+                object.id,
+                "a bsdf that lets light through has two sides by itself: twosided is left out",
+            );
             return Ok(Ok(glass));
         }
         let side = |id: MaterialId, behind: bool| match self.scene.materials[id.0 as usize].kind {

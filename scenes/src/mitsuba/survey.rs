@@ -48,18 +48,26 @@ const PRIVATE: &str = "of a private build";
 
 pub(super) const BSDFS: Class = Class {
     tag: "bsdf",
-    now: &["diffuse", "conductor", "roughconductor", "dielectric", "plastic", "roughplastic", "twosided"],
-    later: &[
-        "roughdielectric",
-        "thindielectric",
-        "principled",
-        "principledthin",
+    now: &[
+        "diffuse",
+        "conductor",
+        "roughconductor",
+        "dielectric",
+        "plastic",
+        "roughplastic",
+        "twosided",
+        "null",
         "mask",
         "blendbsdf",
         "mixturebsdf",
         "normalmap",
         "bumpmap",
-        "null",
+    ],
+    later: &[
+        "roughdielectric",
+        "thindielectric",
+        "principled",
+        "principledthin",
         "phong",
         "ward",
         "roughdiffuse",

@@ -3,6 +3,7 @@
 mod errors;
 mod hostile;
 mod language;
+mod nesting;
 mod objects;
 mod warnings;
 

@@ -53,7 +53,7 @@ impl Reader<'_> {
         }
     }
 
-    fn color_of(
+    pub(super) fn color_of(
         &mut self,
         object: &Object<'_>,
         id: ElementId,

@@ -22,8 +22,8 @@ fn each_stand_in_is_named_with_its_place() {
         (r#"¦<emitter type="point"/>"#, "emitter \"point\": point is not read yet; the light is left out"),
         (r#"¦<bsdf type="phong" id="p"/>"#, "bsdf \"p\": phong is not read yet; a diffuse bsdf stands in"),
         (
-            r#"¦<bsdf type="bumpmap"><bsdf type="plastic"/><texture type="checkerboard"/></bsdf>"#,
-            "bsdf \"bumpmap\": bumpmap is not read yet; the bsdf inside stands in",
+            r#"¦<bsdf type="roughcoating"><bsdf type="plastic"/></bsdf>"#,
+            "bsdf \"roughcoating\": roughcoating is not read yet; the bsdf inside stands in",
         ),
         (
             r#"¦<texture type="mesh_attribute"/>"#,
