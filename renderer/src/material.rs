@@ -7,12 +7,13 @@ use glam::Vec2;
 use limpid_scenes::{Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Scalar, Scene};
 
 use crate::bsdf::{
-    Bsdf, Coating, Conductor, Dielectric, Diffuse, Ior, Lobe, Lobes, Microfacet, Perturbation, Plastic,
+    Bsdf, Coating, Conductor, Dielectric, Diffuse, Ior, Lobes, Microfacet, Perturbation, Plastic,
     RoughConductor, RoughPlastic, Turn,
 };
 use crate::prepare::PrepareError;
 use crate::texture::Textures;
-use flatten::{Flatten, Map, Piece, Share, Side};
+pub use flatten::Map;
+use flatten::{Flatten, Piece, Share, Side};
 pub use perturb::Perturbed;
 
 /// The materials of a scene.
@@ -20,6 +21,16 @@ pub struct Materials {
     materials: Vec<Sides>,
     /// Tables of the rough plastics, which share one where their coatings are alike.
     coatings: Vec<Coating>,
+}
+
+/// Where and from which side a material is looked at.
+#[derive(Clone, Copy)]
+pub struct At {
+    pub material: MaterialId,
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// Seen from the side away from the shading normal.
+    pub behind: bool,
 }
 
 /// What a surface is made of.
@@ -99,47 +110,44 @@ impl Materials {
         !front.holes.is_empty() || !back.holes.is_empty()
     }
 
-    /// Share of the light that goes straight through, in [0, 1]. `behind`: seen from the side away from the normal.
+    /// Share of the light that goes straight through, in [0, 1].
     #[inline]
-    pub fn hole(&self, material: MaterialId, uv: Vec2, textures: &Textures, behind: bool) -> f32 {
-        let holes = &self.side(material, behind).holes;
+    pub fn hole(&self, at: At, textures: &Textures) -> f32 {
+        let holes = &self.side(at).holes;
         if holes.is_empty() {
             return 0.0;
         }
-        holes.iter().map(|hole| share(hole, uv, textures)).sum::<f32>().min(1.0)
+        holes.iter().map(|hole| share(hole, at.uv, textures)).sum::<f32>().min(1.0)
     }
 
-    /// What scatters at a hit where the share `hole` is not there; the weights refer to the rest. `perturbed` makes of a
+    /// Adds what scatters at a hit where the share `hole` is not there; the weights refer to the rest. `perturbed` makes of a
     /// normal map and the question whether the surface is turned over before it what the map does at the hit.
     #[inline]
-    pub fn lobes(
-        &self,
-        material: MaterialId,
-        uv: Vec2,
-        textures: &Textures,
-        behind: bool,
+    pub fn add_lobes<'a>(
+        &'a self,
+        at: At,
         hole: f32,
+        textures: &Textures,
         mut perturbed: impl FnMut(&Map, bool) -> Perturbation,
-    ) -> Lobes<'_> {
-        let mut lobes = Lobes::default();
+        lobes: &mut Lobes<'a>,
+    ) {
         let there = 1.0 - hole;
-        for Piece { share: of_piece, before, map, after, model } in &self.side(material, behind).pieces {
+        for Piece { share: of_piece, before, map, after, model } in &self.side(at).pieces {
             let weight =
-                if of_piece.factors.is_empty() { 1.0 } else { share(of_piece, uv, textures) / there };
+                if of_piece.factors.is_empty() { 1.0 } else { share(of_piece, at.uv, textures) / there };
             let map = map.as_ref().map(|map| perturbed(map, *before));
             let turn = Turn { before: *before, map, after: *after };
-            lobes.push(Lobe { weight: weight.min(1.0), turn, bsdf: self.at(model, uv, textures) });
+            lobes.push(weight.min(1.0), turn, self.at(model, at.uv, textures));
         }
-        lobes
     }
 
     #[inline]
-    fn side(&self, material: MaterialId, behind: bool) -> &Side {
-        let Sides { front, back, .. } = &self.materials[material.0 as usize];
-        if behind { back } else { front }
+    fn side(&self, at: At) -> &Side {
+        let Sides { front, back, .. } = &self.materials[at.material.0 as usize];
+        if at.behind { back } else { front }
     }
 
-    #[inline]
+    #[inline(always)]
     fn at(&self, model: &Model, uv: Vec2, textures: &Textures) -> Bsdf<'_> {
         let color = |c: Color| textures.color(c, uv);
         let complex = |ior: Option<ConductorIor>| ior.map(|ior| Ior { eta: color(ior.eta), k: color(ior.k) });
@@ -179,7 +187,8 @@ impl Model {
 #[inline]
 fn share(share: &Share, uv: Vec2, textures: &Textures) -> f32 {
     let factor = |&(scalar, complement): &(Scalar, bool)| {
-        let x = textures.scalar(scalar, uv).max(0.0).min(1.0);
+        let x = textures.scalar(scalar, uv);
+        let x = if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
         if complement { 1.0 - x } else { x }
     };
     share.factors.iter().map(factor).product()

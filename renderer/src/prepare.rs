@@ -4,10 +4,11 @@ use glam::{DVec3, Vec2};
 use limpid_scenes::{Camera as SceneCamera, Place, Scene};
 
 use crate::accel::{Accel, Hit, NONE, Ray};
+use crate::bsdf::Lobes;
 use crate::effects::{Called, Counters, effects};
 use crate::geometry::{Geometry, Surface};
 use crate::light::Lights;
-use crate::material::Materials;
+use crate::material::{At, Materials};
 use crate::path::Scattering;
 use crate::texture::Textures;
 
@@ -142,11 +143,9 @@ impl Prepared {
         self.accel.closest(&[ray], &mut hits);
         let surface = (hits[0].prim != NONE).then(|| self.geometry.surface(&ray, &hits[0]))?;
         let scattering = Scattering::new(self, &ray, &surface);
-        let sample = scattering.lobes(self, &surface, &mut Counters::default()).sample(
-            scattering.wo,
-            u[0],
-            Vec2::new(u[1], u[2]),
-        )?;
+        let mut lobes = Lobes::default();
+        scattering.add_lobes(self, &surface, &mut Counters::default(), &mut lobes);
+        let sample = lobes.sample(scattering.wo, u[0], Vec2::new(u[1], u[2]))?;
         Some(WorldScatter {
             wi: scattering.frame.to_render(sample.wi).as_dvec3(),
             weight: sample.weight.total().to_array(),
@@ -157,7 +156,8 @@ impl Prepared {
     /// Share of light that goes straight through where `ray` hits.
     pub(crate) fn hole(&self, ray: &Ray, surface: &Surface) -> f32 {
         let material = self.geometry.shapes[surface.shape as usize].material;
-        self.materials.hole(material, surface.uv, &self.textures, ray.d.dot(surface.ns) > 0.0)
+        let at = At { material, uv: surface.uv, behind: ray.d.dot(surface.ns) > 0.0 };
+        self.materials.hole(at, &self.textures)
     }
 
     fn local_ray(&self, ray: WorldRay) -> Ray {

@@ -18,6 +18,9 @@ const BSDFS: &[&str] = &[
     r#"<bsdf type="plastic"><boolean name="nonlinear" value="true"/></bsdf>"#,
     r#"<bsdf type="roughplastic"><string name="distribution" value="ggx"/><float name="alpha" value="0.001"/></bsdf>"#,
     r#"<bsdf type="roughplastic"><float name="alpha" value="1"/></bsdf>"#,
+    r#"<bsdf type="blendbsdf"><bsdf type="diffuse"/><bsdf type="dielectric"/></bsdf>"#,
+    r#"<bsdf type="mask"><bsdf type="twosided"><bsdf type="plastic"/></bsdf></bsdf>"#,
+    r#"<bsdf type="normalmap"><rgb name="normalmap" value="0.7 0.4 0.9"/><bsdf type="roughconductor"/></bsdf>"#,
     r#"<bsdf type="twosided"><bsdf type="roughconductor"><string name="distribution" value="ggx"/></bsdf></bsdf>"#,
 ];
 

@@ -16,17 +16,20 @@ pub const MOST_LOBES: usize = 8;
 #[derive(Clone, Debug, Default)]
 pub struct Lobes<'a> {
     lobes: ArrayVec<Lobe<'a>, MOST_LOBES>,
+    /// What their normal maps do. Apart from the lobes, which most scenes need alone and which are copied at every hit.
+    maps: ArrayVec<Perturbation, MOST_LOBES>,
 }
 
 /// One BSDF with its share.
 #[derive(Clone, Copy, Debug)]
-pub struct Lobe<'a> {
+struct Lobe<'a> {
     /// What `f` is multiplied by: positive; the sum over all lobes is at most 1.
-    pub weight: f32,
-    /// How the BSDF's frame lies in that of the hit.
-    pub turn: Turn,
-    /// What scatters.
-    pub bsdf: Bsdf<'a>,
+    weight: f32,
+    before: bool,
+    after: bool,
+    /// Which of `maps` is this lobe's, counted from 1; 0 for none.
+    map: u8,
+    bsdf: Bsdf<'a>,
 }
 
 /// From the frame of the hit to that of a BSDF: first perhaps over, then by a normal map, then perhaps over.
@@ -66,15 +69,24 @@ fn tan2(v: Vec3) -> f32 {
     (1.0 - v.z * v.z).max(0.0) / (v.z * v.z)
 }
 
+#[inline]
 fn over(v: Vec3, turned: bool) -> Vec3 {
     if turned { Vec3::new(v.x, v.y, -v.z) } else { v }
 }
 
-impl Turn {
-    fn is_none(&self) -> bool {
-        *self == Self::default()
+impl Lobe<'_> {
+    #[inline]
+    fn is_turned(&self) -> bool {
+        self.before || self.after || self.map != 0
     }
 
+    #[inline]
+    fn is_plain(&self) -> bool {
+        self.weight == 1.0 && !self.after && self.map == 0
+    }
+}
+
+impl Turn {
     /// A direction of the hit in the frame of the BSDF; `None` where the map's normal and the shading normal see it from
     /// different sides.
     #[inline]
@@ -108,42 +120,68 @@ impl Turn {
     }
 }
 
-impl<'a> Lobe<'a> {
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
-        if self.turn.is_none() {
-            return self.bsdf.sample(wo, u_lobe, u);
+impl<'a> Lobes<'a> {
+    /// Adds a lobe whose `f` is multiplied by `weight`; one of weight 0 is left out. There must be room for it.
+    #[inline]
+    pub fn push(&mut self, weight: f32, turn: Turn, bsdf: Bsdf<'a>) {
+        if weight > 0.0 {
+            let Turn { before, map, after } = turn;
+            let map = map.map_or(0, |map| {
+                self.maps.push(map);
+                self.maps.len() as u8
+            });
+            self.lobes.push(Lobe { weight, before, after, map, bsdf });
         }
-        let sample = self.bsdf.sample(self.turn.to_lobe(wo)?, u_lobe, u)?;
-        let wi = self.turn.from_lobe(sample.wi)?;
-        Some(BsdfSample { wi, weight: sample.weight * self.turn.unshadowed(wi), ..sample })
     }
 
-    fn eval(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
-        if self.turn.is_none() {
-            return self.bsdf.eval(wo, wi);
+    #[inline]
+    fn turn(&self, lobe: &Lobe) -> Turn {
+        let map = lobe.map.checked_sub(1).map(|i| self.maps[usize::from(i)]);
+        Turn { before: lobe.before, map, after: lobe.after }
+    }
+
+    #[inline]
+    fn sample_lobe(&self, lobe: &Lobe, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
+        if !lobe.is_turned() {
+            return lobe.bsdf.sample(wo, u_lobe, u);
         }
-        let (Some(wo), Some(local)) = (self.turn.to_lobe(wo), self.turn.to_lobe(wi)) else {
+        let turn = self.turn(lobe);
+        let sample = lobe.bsdf.sample(turn.to_lobe(wo)?, u_lobe, u)?;
+        let wi = turn.from_lobe(sample.wi)?;
+        Some(BsdfSample { wi, weight: sample.weight * turn.unshadowed(wi), ..sample })
+    }
+
+    #[inline]
+    fn eval_lobe(&self, lobe: &Lobe, wo: Vec3, wi: Vec3) -> BsdfEval {
+        if !lobe.is_turned() {
+            return lobe.bsdf.eval(wo, wi);
+        }
+        let turn = self.turn(lobe);
+        let (Some(wo), Some(local)) = (turn.to_lobe(wo), turn.to_lobe(wi)) else {
             return BsdfEval::ZERO;
         };
-        let value = self.bsdf.eval(wo, local);
-        BsdfEval { f_cos: value.f_cos * self.turn.unshadowed(wi), ..value }
-    }
-}
-
-impl<'a> Lobes<'a> {
-    /// Adds a lobe; one of weight 0 is left out. There must be room for it.
-    #[inline]
-    pub fn push(&mut self, lobe: Lobe<'a>) {
-        if lobe.weight > 0.0 {
-            self.lobes.push(lobe);
-        }
+        let value = lobe.bsdf.eval(wo, local);
+        BsdfEval { f_cos: value.f_cos * turn.unshadowed(wi), ..value }
     }
 
     /// As [`Bsdf::sample`], over all lobes.
     #[inline]
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
+        match &self.lobes[..] {
+            [lobe] if lobe.is_plain() => {
+                let mut sample = lobe.bsdf.sample(over(wo, lobe.before), u_lobe, u)?;
+                sample.wi = over(sample.wi, lobe.before);
+                Some(sample)
+            }
+            _ => self.sample_any(wo, u_lobe, u),
+        }
+    }
+
+    /// Apart from the case of one BSDF of full weight, which nearly all hits are.
+    #[inline(never)]
+    fn sample_any(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
         if let [lobe] = &self.lobes[..] {
-            let sample = lobe.sample(wo, u_lobe, u)?;
+            let sample = self.sample_lobe(lobe, wo, u_lobe, u)?;
             return Some(BsdfSample { weight: sample.weight * lobe.weight, ..sample });
         }
         let total = self.total();
@@ -157,7 +195,7 @@ impl<'a> Lobes<'a> {
             rest -= lobe.weight;
         }
         let u_lobe = (rest / chosen.weight).clamp(0.0, 1.0f32.next_down());
-        let sample = chosen.sample(wo, u_lobe, u)?;
+        let sample = self.sample_lobe(chosen, wo, u_lobe, u)?;
         if sample.delta {
             // chosen with chance weight / total, and nothing else can give this direction
             return Some(BsdfSample { weight: sample.weight * total, ..sample });
@@ -169,14 +207,22 @@ impl<'a> Lobes<'a> {
     /// As [`Bsdf::eval`], over all lobes.
     #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
+        match &self.lobes[..] {
+            [lobe] if lobe.is_plain() => lobe.bsdf.eval(over(wo, lobe.before), over(wi, lobe.before)),
+            _ => self.eval_any(wo, wi),
+        }
+    }
+
+    #[inline(never)]
+    fn eval_any(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
         if let [lobe] = &self.lobes[..] {
-            let value = lobe.eval(wo, wi);
+            let value = self.eval_lobe(lobe, wo, wi);
             return BsdfEval { f_cos: value.f_cos * lobe.weight, ..value };
         }
         let total = self.total();
         let mut sum = BsdfEval::ZERO;
         for lobe in &self.lobes {
-            let value = lobe.eval(wo, wi);
+            let value = self.eval_lobe(lobe, wo, wi);
             sum.f_cos += value.f_cos * lobe.weight;
             sum.pdf += value.pdf * (lobe.weight / total);
         }
@@ -199,7 +245,7 @@ impl<'a> Lobes<'a> {
     pub fn features(&self, wo: Vec3) -> BsdfFeatures {
         let mut sum = BsdfFeatures { albedo: Rgb::ZERO, diffuse_albedo: Rgb::ZERO, roughness: 0.0 };
         for lobe in &self.lobes {
-            if let Some(wo) = lobe.turn.to_lobe(wo) {
+            if let Some(wo) = self.turn(lobe).to_lobe(wo) {
                 let of_lobe = lobe.bsdf.features(wo);
                 sum.albedo += of_lobe.albedo * lobe.weight;
                 sum.diffuse_albedo += of_lobe.diffuse_albedo * lobe.weight;
@@ -214,7 +260,7 @@ impl<'a> Lobes<'a> {
     pub fn normal(&self) -> Vec3 {
         let weightiest = self.lobes.iter().reduce(|a, b| if b.weight > a.weight { b } else { a });
         weightiest.map_or(Vec3::Z, |lobe| {
-            let Turn { before, map, after } = lobe.turn;
+            let Turn { before, map, after } = self.turn(lobe);
             let z = over(Vec3::Z, after);
             over(map.map_or(z, |map| map.axes * z), before)
         })

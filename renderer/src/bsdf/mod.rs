@@ -23,7 +23,7 @@ use crate::color::{Rgb, Split};
 pub use conductor::{Conductor, Ior};
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
-pub use lobes::{Lobe, Lobes, MOST_LOBES, Perturbation, Turn};
+pub use lobes::{Lobes, MOST_LOBES, Perturbation, Turn};
 pub use microfacet::Microfacet;
 pub use plastic::Plastic;
 pub use rough_conductor::RoughConductor;

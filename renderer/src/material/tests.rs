@@ -46,13 +46,18 @@ fn of(kinds: Vec<MaterialKind>) -> (Scene, Result<Materials, PrepareError>) {
     (scene, materials)
 }
 
+fn seen(id: u32, behind: bool) -> At {
+    At { material: MaterialId(id), uv: Vec2::ZERO, behind }
+}
+
 #[test]
 fn each_side_of_a_two_sided_material_is_lit_from_its_own_side() {
     let (scene, materials) = of(vec![diffuse(0.2), diffuse(0.7), two_sided(0, 1)]);
     let (materials, textures) = (materials.unwrap(), Textures::prepare(&scene));
     let albedo = |id, behind| {
-        let lobes =
-            materials.lobes(MaterialId(id), Vec2::ZERO, &textures, behind, 0.0, |_, _| unreachable!());
+        let mut lobes = Lobes::default();
+        let no_map = |_: &Map, _| unreachable!();
+        materials.add_lobes(seen(id, behind), 0.0, &textures, no_map, &mut lobes);
         let wo = if behind { Vec3::NEG_Z } else { Vec3::Z };
         (lobes.features(wo).albedo.x, lobes.normal())
     };
@@ -65,8 +70,8 @@ fn each_side_of_a_two_sided_material_is_lit_from_its_own_side() {
 /// Albedos and shares of the BSDFs on one side, and the hole.
 fn pieces(scene: &Scene, materials: &Materials, id: u32, behind: bool) -> (Vec<(f32, f32)>, f32) {
     let textures = Textures::prepare(scene);
-    let hole = materials.hole(MaterialId(id), Vec2::ZERO, &textures, behind);
-    let side = materials.side(MaterialId(id), behind);
+    let hole = materials.hole(seen(id, behind), &textures);
+    let side = materials.side(seen(id, behind));
     let pieces = side.pieces.iter().map(|piece| {
         let Model::Diffuse { albedo } = piece.model else { panic!("only diffuse ones here") };
         (textures.color(albedo, Vec2::ZERO).x, share(&piece.share, Vec2::ZERO, &textures))

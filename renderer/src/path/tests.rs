@@ -1,6 +1,6 @@
 use glam::{DMat4, DVec3};
 use limpid_frame::{Layer, LayerRequest};
-use limpid_scenes::{Scene, ShapeKind};
+use limpid_scenes::{MaterialId, MaterialKind, Scalar, Scene, ShapeKind};
 
 use super::*;
 use crate::camera::Camera;
@@ -25,6 +25,24 @@ fn room() -> Scene {
     scene
 }
 
+/// A material that lets the share `hole` of the light through; number `inner` is what the rest is made of.
+fn mask(hole: f32, inner: u32) -> MaterialKind {
+    MaterialKind::Mask { opacity: Scalar::Constant(1.0 - hole), inner: MaterialId(inner) }
+}
+
+/// The room with a half-open plate under its lamp.
+fn room_with_holes() -> Scene {
+    let mut scene = room();
+    scene.materials.push(limpid_scenes::Material {
+        name: "mask".into(),
+        kind: mask(0.5, 0),
+        place: limpid_scenes::Place::default(),
+    });
+    let plate = DMat4::from_translation(DVec3::new(-0.5, 0.0, 1.2));
+    add(&mut scene, ShapeKind::Rectangle, plate, 2);
+    scene
+}
+
 #[test]
 fn closed_sphere_of_albedo_half_that_emits_half_has_radiance_one() {
     let mut scene = scene(camera(DVec3::ZERO, DVec3::X, 8, 8), vec![diffuse(0.5)]);
@@ -38,7 +56,12 @@ fn closed_sphere_of_albedo_half_that_emits_half_has_radiance_one() {
 
 #[test]
 fn batch_and_depth_first_driver_agree_to_the_bit() {
-    let scene = room();
+    for scene in [room(), room_with_holes()] {
+        batch_and_depth_first_driver_agree(scene);
+    }
+}
+
+fn batch_and_depth_first_driver_agree(scene: Scene) {
     let prepared = crate::Prepared::new(&scene, 0).unwrap();
     let mut settings = crate::Settings::for_camera(&scene, 0);
     (settings.spp, settings.layers) = (6, LayerRequest::all());
@@ -61,6 +84,60 @@ fn batch_and_depth_first_driver_agree_to_the_bit() {
     };
     crate::render(&prepared, &settings, &Progress::default(), Some(&recorder));
     assert_eq!(compared.into_inner(), 40 * 24 * 6);
+}
+
+#[test]
+fn what_lies_behind_masks_is_seen_by_the_product_of_their_holes() {
+    let view = camera(DVec3::new(0.0, 0.0, 9.0), DVec3::ZERO, 1, 1);
+    let mut scene = scene(view, vec![diffuse(0.0), mask(0.75, 0), mask(0.5, 0), MaterialKind::Null]);
+    for (z, material) in [(1.0, 1), (2.0, 2), (3.0, 3)] {
+        let plate = DMat4::from_translation(DVec3::Z * z) * DMat4::from_scale(DVec3::splat(9.0));
+        add(&mut scene, ShapeKind::Rectangle, plate, material);
+    }
+    sky(&mut scene, 1.0);
+    let seen = |depth| mean(&render(&scene, |s| (s.spp, s.max_depth) = (4096, depth)), "G");
+    // Stratified draws: the standard error is far below that of 4096 independent ones, 0.0075.
+    assert!((seen(None) - 0.375).abs() < 0.005, "{}", seen(None));
+    assert!((seen(Some(4)) - 0.375).abs() < 0.005, "a hole is an edge");
+    assert_eq!(seen(Some(3)), 0.0, "a hole is an edge");
+}
+
+/// A lamp's light through a mask, by light samples alone (a small lamp) and by scattering too (a large one).
+#[test]
+fn light_through_a_mask_is_multiplied_by_its_hole() {
+    for half_side in [0.05, 3.0] {
+        let lit = |masked: bool, depth| {
+            let view = camera(DVec3::new(0.0, 0.0, 0.5), DVec3::ZERO, 1, 1);
+            let mut scene = scene(view, vec![diffuse(0.5), diffuse(0.0), mask(0.25, 1)]);
+            add(&mut scene, ShapeKind::Rectangle, DMat4::IDENTITY, 0);
+            let turned =
+                DMat4::from_rotation_x(std::f64::consts::PI) * DMat4::from_scale(DVec3::splat(half_side));
+            let lamp = DMat4::from_translation(DVec3::Z * 2.0) * turned;
+            add(&mut scene, ShapeKind::Rectangle, lamp, 1).emission = glow(1.0);
+            if masked {
+                let plate = DMat4::from_translation(DVec3::Z) * DMat4::from_scale(DVec3::splat(90.0));
+                add(&mut scene, ShapeKind::Rectangle, plate, 2);
+            }
+            mean(&render(&scene, |s| (s.spp, s.max_depth) = (4096, Some(depth))), "G")
+        };
+        let ratio = lit(true, 3) / lit(false, 2);
+        assert!((ratio / 0.25 - 1.0).abs() < 0.01, "{half_side}: {ratio}"); // the draws of scattering: 0.3 %
+        assert_eq!(lit(true, 2), 0.0, "a hole is an edge, for light samples as for scattering");
+    }
+}
+
+#[test]
+fn features_are_those_of_the_first_surface_that_is_there() {
+    let view = camera(DVec3::new(0.0, 0.0, 9.0), DVec3::ZERO, 1, 1);
+    let mut scene = scene(view, vec![diffuse(0.25), MaterialKind::Null]);
+    for (z, material) in [(1.0, 0), (2.0, 1)] {
+        let plate = DMat4::from_translation(DVec3::Z * z) * DMat4::from_scale(DVec3::splat(9.0));
+        add(&mut scene, ShapeKind::Rectangle, plate, material);
+    }
+    let frame = render(&scene, |s| (s.spp, s.layers) = (4, LayerRequest::all())).frame;
+    let value = |name| frame.channel(name).unwrap()[0];
+    assert_eq!(value("albedo.G"), 0.25);
+    assert!((8.0..12.0).contains(&value("depth.Z")) && value("id.object") == 0.0, "{}", value("depth.Z"));
 }
 
 #[test]
@@ -126,10 +203,8 @@ fn mis_weights_add_up_to_one_whatever_the_densities() {
 
 #[test]
 fn paths_end_in_a_closed_box_of_perfect_mirrors_and_of_perfect_white() {
-    let mirror = limpid_scenes::MaterialKind::Conductor {
-        ior: None,
-        specular_reflectance: limpid_scenes::Color::Constant([1.0; 3]),
-    };
+    let mirror =
+        MaterialKind::Conductor { ior: None, specular_reflectance: limpid_scenes::Color::Constant([1.0; 3]) };
     for material in [mirror, diffuse(1.0)] {
         let mut scene = scene(camera(DVec3::ZERO, DVec3::X, 2, 2), vec![material]);
         add(&mut scene, ShapeKind::Cube, DMat4::IDENTITY, 0).flip_normals = true;
