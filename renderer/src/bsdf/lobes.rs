@@ -101,7 +101,7 @@ impl Turn {
 
     /// The other way.
     #[inline]
-    fn from_lobe(self, v: Vec3) -> Option<Vec3> {
+    fn to_hit(self, v: Vec3) -> Option<Vec3> {
         let turned = over(v, self.after);
         let v = match &self.map {
             Some(map) => (map.axes * turned).normalize(),
@@ -147,7 +147,7 @@ impl<'a> Lobes<'a> {
         }
         let turn = self.turn(lobe);
         let sample = lobe.bsdf.sample(turn.to_lobe(wo)?, u_lobe, u)?;
-        let wi = turn.from_lobe(sample.wi)?;
+        let wi = turn.to_hit(sample.wi)?;
         Some(BsdfSample { wi, weight: sample.weight * turn.unshadowed(wi), ..sample })
     }
 
