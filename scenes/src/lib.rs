@@ -27,6 +27,7 @@
 //! ```
 
 mod error;
+mod export;
 mod files;
 mod image;
 mod load;
@@ -40,5 +41,6 @@ mod spectrum;
 mod testing;
 
 pub use error::SceneError;
+pub use export::{ExportError, Exported, export_mitsuba};
 pub use load::{LoadOptions, load, load_str};
 pub use scene::*;

@@ -271,3 +271,16 @@ fn records_add_up_to_the_frame() {
     }
     assert_eq!(pixels, 40 * 36);
 }
+
+#[test]
+fn an_exported_scene_renders_the_same_picture() {
+    let folder = folder();
+    let report = json(folder.path(), "export ball.xml -o out.xml --json");
+    assert_eq!(report["output"], "out.xml");
+    done(folder.path(), "render ball.xml -o a.exr");
+    done(folder.path(), "render out.xml -o b.exr");
+    assert_within(&frame(folder.path(), "a.exr"), &frame(folder.path(), "b.exr"));
+    let refused = call(folder.path(), ["export", "ball.xml", "-o", "out.gltf"]);
+    assert_eq!(refused.code, 2);
+    assert!(refused.stderr.contains("Mitsuba scene is an XML file"), "{}", refused.stderr);
+}

@@ -47,6 +47,8 @@ pub enum Command {
     Info(Info),
     /// Measure how far a picture is from its reference.
     Metrics(Metrics),
+    /// Write a scene as Mitsuba XML that renders the same picture there.
+    Export(Export),
     /// List every denoiser with its inputs and its source.
     Methods,
 }
@@ -193,6 +195,18 @@ pub struct Metrics {
     /// What it should be; with several the picture is compared to each.
     #[arg(required = true, value_name = "REFERENCE")]
     pub references: Vec<PathBuf>,
+}
+
+/// `limpid export`
+#[derive(Args, Debug)]
+pub struct Export {
+    /// Scene file: Mitsuba XML.
+    pub scene: PathBuf,
+    /// File to write; meshes and pictures go to OUT_files beside it.
+    #[arg(short, required = true, value_name = "OUT.xml", value_parser = values::xml_path)]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub reading: Reading,
 }
 
 #[cfg(test)]

@@ -35,6 +35,14 @@ pub enum CliError {
         /// What is wrong, and the cure.
         problem: String,
     },
+    /// A file of an exported scene that cannot be written.
+    #[error("{}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
     /// A frame that the method cannot take.
     #[error("{}: {source}", path.display())]
     Denoise {
@@ -76,7 +84,7 @@ impl CliError {
                 Fault::Input => 2,
                 Fault::Machine => 3,
             },
-            Self::Threads { .. } | Self::Stdout(_) => 3,
+            Self::Threads { .. } | Self::Stdout(_) | Self::Write { .. } => 3,
             Self::Interrupted { .. } => 130,
         }
     }

@@ -6,6 +6,7 @@
 mod cli;
 mod denoise;
 mod error;
+mod export;
 mod info;
 mod interrupt;
 mod layers;
@@ -55,6 +56,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Command::Render(options) => render::run(&options, &cli.common),
         Command::Denoise(options) => denoise::run(&options, &cli.common),
         Command::Info(options) => info::run(&options, &cli.common),
+        Command::Export(options) => export::run(&options, &cli.common),
         Command::Metrics(options) => metrics::run(&options, &cli.common),
         Command::Methods => methods::run(&cli.common),
     }

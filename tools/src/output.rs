@@ -36,7 +36,7 @@ impl Pictures {
                 let problem = "is to be two files; name another".into();
                 return Err(CliError::File { path: path.into(), problem });
             }
-            check_file(path).map_err(|source| output_error(path, source))?;
+            check(path)?;
         }
         Ok(())
     }
@@ -94,6 +94,15 @@ pub fn check_records_folder(folder: &Path) -> Result<(), CliError> {
         return Err(CliError::File { path: folder.into(), problem: problem.into() });
     }
     Ok(())
+}
+
+/// Whether a file can be made at `path`, before the work that it is for.
+///
+/// # Errors
+///
+/// Where it cannot.
+pub fn check(path: &Path) -> Result<(), CliError> {
+    check_file(path).map_err(|source| output_error(path, source))
 }
 
 fn check_file(path: &Path) -> io::Result<()> {

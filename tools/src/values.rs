@@ -102,6 +102,11 @@ pub fn png_path(text: &str) -> Result<PathBuf, String> {
     path_with(text, "png", "a picture is a PNG file; for the frame use `-o`")
 }
 
+/// `export -o`
+pub fn xml_path(text: &str) -> Result<PathBuf, String> {
+    path_with(text, "xml", "a Mitsuba scene is an XML file")
+}
+
 /// A path whose extension, if it has one, is `extension`: `-o a.png` would be an EXR that no viewer takes for one.
 fn path_with(text: &str, extension: &str, why: &str) -> Result<PathBuf, String> {
     if text == "-" {

@@ -1,0 +1,59 @@
+//! `limpid export`: a scene as Mitsuba XML.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use limpid_frame::write_whole;
+use limpid_scenes::{ExportError, Exported, Scene, export_mitsuba};
+use serde_json::json;
+
+use crate::cli::{Common, Export};
+use crate::error::CliError;
+use crate::{output, scene, words};
+
+/// Reads a scene and writes it.
+pub fn run(options: &Export, common: &Common) -> Result<(), CliError> {
+    output::check(&options.output)?;
+    let scene = scene::load(&options.scene, &options.reading, common)?;
+    let (files, notes) = write(&scene, &options.output)?;
+    for note in &notes {
+        words::note(common, format_args!("note: {note}"));
+    }
+    let xml = options.output.display().to_string();
+    if common.json {
+        return words::result(json!({ "output": xml, "files": files, "notes": notes }));
+    }
+    words::note(
+        common,
+        format_args!("{xml} and {} files in {}", files.len(), folder_of(&options.output).display()),
+    );
+    Ok(())
+}
+
+/// Writes `scene` to `path`, its meshes and pictures to a folder beside it; gives their names and what differs.
+pub fn write(scene: &Scene, path: &Path) -> Result<(Vec<String>, Vec<String>), CliError> {
+    let folder = folder_of(path);
+    let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let beside = path.parent().unwrap_or(Path::new(""));
+    let mut files = Vec::new();
+    let mut write = |name: &str, bytes: &[u8]| {
+        fs::create_dir_all(&folder)?;
+        write_whole(&beside.join(name), |file| file.write_all(bytes)).map_err(io::Error::other)?;
+        files.push(name.to_owned());
+        Ok(())
+    };
+    let Exported { xml, notes } = export_mitsuba(scene, &name, &mut write).map_err(|error| match error {
+        ExportError::Scene(error) => CliError::Scene(error),
+        ExportError::Write { name, source } => CliError::Write { path: beside.join(name), source },
+    })?;
+    write_whole(path, |file| file.write_all(xml.as_bytes()))?;
+    Ok((files, notes))
+}
+
+/// Where the files go that `path` refers to.
+fn folder_of(path: &Path) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push("_files");
+    path.with_file_name(name)
+}
