@@ -33,7 +33,7 @@ pub fn write_whole(
     }
 
     let folder = target.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut temporary = builder().tempfile_in(folder).map_err(path_fault)?;
+    let mut temporary = builder().tempfile_in(folder).map_err(|e| path_fault(without_name(e)))?;
     fill(temporary.as_file_mut(), write).map_err(|source| write_failed(path, source))?;
     temporary.persist(&target).map_err(|e| path_fault(e.error))?;
     Ok(())
@@ -76,6 +76,25 @@ fn builder() -> tempfile::Builder<'static, 'static> {
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder
+}
+
+/// What went wrong, without the temporary file's name, which says nothing to anybody.
+pub fn without_name(error: io::Error) -> io::Error {
+    match error.raw_os_error().or_else(|| inner_code(&error)) {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => error,
+    }
+}
+
+fn inner_code(error: &io::Error) -> Option<i32> {
+    let mut source = error.get_ref().and_then(|e| e.source());
+    while let Some(inner) = source {
+        if let Some(code) = inner.downcast_ref::<io::Error>().and_then(io::Error::raw_os_error) {
+            return Some(code);
+        }
+        source = inner.source();
+    }
+    None
 }
 
 fn fill(file: &mut File, write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>) -> io::Result<()> {

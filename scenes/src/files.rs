@@ -79,7 +79,11 @@ impl Files {
     ///
     /// As the system says; also for what is no regular file, since a pipe or a device may never end.
     pub fn read(&mut self, path: &Path) -> io::Result<Vec<u8>> {
-        if !fs::metadata(path)?.is_file() {
+        let about = fs::metadata(path)?;
+        if about.is_dir() {
+            return Err(io::Error::new(io::ErrorKind::IsADirectory, "not a regular file but a folder"));
+        }
+        if !about.is_file() {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
         }
         let bytes = fs::read(path)?;

@@ -22,9 +22,20 @@ pub struct LoadOptions {
 /// left out or replaced is a [`Warning`](crate::Warning) of the scene instead.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let mut files = Files::default();
-    let bytes = files
-        .read(path)
-        .map_err(|error| file_error(path, error.to_string(), "name a scene file that can be read"))?;
+    let bytes = files.read(path).map_err(|error| {
+        let inside = path.join("scene.xml");
+        match path.is_dir() && inside.is_file() {
+            true => {
+                file_error(path, error.to_string(), &format!("name the file in it: {}", inside.display()))
+            }
+            false => file_error(path, error.to_string(), "name a scene file that can be read"),
+        }
+    })?;
+    if let Some(picture) = picture_format(&bytes) {
+        let help =
+            "name a scene (.xml); to clean an EXR frame use `limpid denoise`, to look into it `limpid info`";
+        return Err(file_error(path, format!("{picture}, not a scene"), help));
+    }
     if let Some(format) = other_format(&bytes, path) {
         let help = "render a Mitsuba scene (.xml) that holds the model, or wait for this reader";
         return Err(file_error(path, format!("{format} is not read yet"), help));
@@ -61,6 +72,17 @@ fn strictly(scene: Scene, options: &LoadOptions) -> Result<Scene, SceneError> {
 
 fn file_error(file: &Path, problem: String, help: &str) -> SceneError {
     SceneError { file: file.into(), line: 0, column: 0, element: "scene".into(), problem, help: help.into() }
+}
+
+/// What kind of picture this is, if it is one.
+fn picture_format(bytes: &[u8]) -> Option<&'static str> {
+    let formats: [(&[u8], &str); 4] = [
+        (b"\x76\x2f\x31\x01", "an EXR frame"),
+        (b"\x89PNG", "a PNG picture"),
+        (b"\xff\xd8\xff", "a JPEG picture"),
+        (b"#?RADIANCE", "a Radiance HDR picture"),
+    ];
+    formats.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| *name)
 }
 
 /// The name of a known format that is not Mitsuba's.

@@ -1,5 +1,7 @@
 //! What the tests that cross crates share: small scenes, rendered.
 
+pub mod table;
+
 use glam::DVec3;
 use limpid_renderer::{Prepared, Progress, Rendered, Settings, render};
 use limpid_scenes::Scene;

@@ -189,10 +189,10 @@ pub struct Info {
 /// `limpid metrics`
 #[derive(Args, Debug)]
 pub struct Metrics {
-    /// Picture to judge.
+    /// Frame to judge (EXR).
     #[arg(value_name = "IMAGE")]
     pub image: PathBuf,
-    /// What it should be; with several the picture is compared to each.
+    /// What it should be (EXR); with several the frame is compared to each.
     #[arg(required = true, value_name = "REFERENCE")]
     pub references: Vec<PathBuf>,
 }

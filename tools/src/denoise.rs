@@ -35,6 +35,10 @@ pub fn run(options: &Denoise, common: &Common) -> Result<(), CliError> {
     pictures.write(&clean)?;
     let write = begin.elapsed().as_secs_f64();
 
+    if let Some(lacking) = clean.metadata.get("limpid:denoise").and_then(|record| lacking(record)) {
+        let cure = "a frame rendered with `--layers all` has all that the method can use";
+        words::note(common, format_args!("note: {lacking}; {cure}"));
+    }
     let (width, height, method) = (clean.width(), clean.height(), options.method.name);
     let names = pictures.names().join(", ");
     words::note(common, format_args!("{names}: {width}x{height}, {method}, {seconds:.1} s"));
@@ -80,6 +84,13 @@ impl Denoising {
         with_spinner(common, self.method.name, || self.denoiser.denoise(noisy))
             .map_err(|source| CliError::Denoise { path: file.into(), source })
     }
+}
+
+/// What a method says in its record that it had to do without.
+fn lacking(record: &str) -> Option<String> {
+    let without = |part: &&str| part.starts_with("filtered as a whole") || part.starts_with("no ");
+    let parts: Vec<&str> = record.split("; ").skip(1).filter(without).collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
 }
 
 /// The input: all files' channels in one frame.
@@ -151,6 +162,13 @@ mod tests {
             frame.insert(*name, vec![i as f32; width]);
         }
         frame
+    }
+
+    #[test]
+    fn what_a_method_did_without_is_told() {
+        let record = "joint-nlm radius=10; filtered as a whole: no components; no features; pixels filled 3";
+        assert_eq!(lacking(record).as_deref(), Some("filtered as a whole: no components; no features"));
+        assert_eq!(lacking("joint-nlm radius=10; features normal albedo"), None);
     }
 
     #[test]

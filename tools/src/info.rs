@@ -6,7 +6,7 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
-use limpid_frame::read_exr;
+use limpid_frame::{Frame, Layer, Statistic, read_exr};
 use limpid_renderer::Called;
 use limpid_scenes::{Scene, ShapeKind};
 use serde_json::{Value, json};
@@ -19,7 +19,7 @@ use crate::{layers, scene, words};
 const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
 /// What people see of a scene or a frame, in this order; warnings go to standard error.
-const SHOWN: [&str; 14] = [
+const SHOWN: [&str; 15] = [
     "size",
     "spp",
     "cameras",
@@ -31,6 +31,7 @@ const SHOWN: [&str; 14] = [
     "textures",
     "effects",
     "layers",
+    "other",
     "non_finite",
     "metadata",
     "content_hash",
@@ -76,10 +77,21 @@ fn of_frame(path: &Path) -> Result<Value, CliError> {
         "height": frame.height(),
         "size": [frame.width(), frame.height()],
         "layers": layers::names(&frame.layers_present()),
+        "other": others(&frame),
         "channels": channels,
         "non_finite": non_finite,
         "metadata": frame.metadata,
     }))
+}
+
+/// Channels that belong to no layer: the `noisy.R` that a denoiser keeps, and other programs' words.
+fn others(frame: &Frame) -> Vec<&str> {
+    let known = |name: &str| {
+        Layer::ALL.into_iter().any(|layer| {
+            Statistic::ALL.into_iter().any(|s| layer.channel_names(s).iter().any(|known| known == name))
+        })
+    };
+    frame.channels().map(|(name, _)| name).filter(|name| !known(name)).collect()
 }
 
 fn of_scene(path: &Path, reading: &Reading, common: &Common) -> Result<Value, CliError> {

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use limpid_frame::{Frame, FrameError, write_beauty_png, write_exr};
+use limpid_frame::{Frame, FrameError, without_name, write_beauty_png, write_exr};
 
 use crate::error::CliError;
 
@@ -117,7 +117,7 @@ fn check_file(path: &Path) -> io::Result<()> {
     }
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let folder = target.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    tempfile::Builder::new().prefix(".limpid-").tempfile_in(folder).map(drop)
+    tempfile::Builder::new().prefix(".limpid-").tempfile_in(folder).map(drop).map_err(without_name)
 }
 
 /// Whose fault it is that no file can be made: a full disk is the machine's, anything else the path's.

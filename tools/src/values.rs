@@ -122,7 +122,7 @@ fn path_with(text: &str, extension: &str, why: &str) -> Result<PathBuf, String> 
 }
 
 fn whole(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| "not a whole number".into())
+    text.parse().map_err(|_| "not a whole number above 0".into())
 }
 
 fn numbers<const N: usize>(text: &str) -> Option<[u32; N]> {

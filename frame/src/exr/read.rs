@@ -73,7 +73,7 @@ impl From<ExrError> for Problem {
             ExrError::Io(error) => Problem::Io(error),
             ExrError::NotSupported(what) => Problem::Malformed(format!("unsupported EXR: {what}")),
             ExrError::Invalid(what) if what == "file identifier missing" => {
-                Problem::Malformed("this is not an EXR file".to_owned())
+                Problem::Malformed("this is not an EXR file; name the frame (.exr), not its PNG".to_owned())
             }
             // The crate's words for an unexpected end.
             ExrError::Invalid(what) if what == "reference to missing bytes" => {

@@ -63,7 +63,9 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
     let error = halves.and_then(|halves| estimate(halves, &settings, interrupted));
     frame.metadata.extend(header);
     if interrupted {
-        frame.metadata.insert("limpid:interrupted".into(), "pixels may have fewer samples".into());
+        frame
+            .metadata
+            .insert("limpid:interrupted".into(), "every pixel has limpid:spp samples, some have more".into());
     }
     let begin = Instant::now();
     if let Some(denoising) = denoising.as_ref().filter(|_| !interrupted) {

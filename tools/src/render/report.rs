@@ -129,7 +129,7 @@ impl Report<'_> {
         };
         let percent = |relmse: f64| 100.0 * relmse.sqrt();
         let interval = format!("95 % within {:.2}–{:.2} %", percent(low), percent(high));
-        let noise = format!("{:.2} % ({interval}; relMSE {relmse:.2e})", percent(relmse));
+        let noise = format!("{:.2} % ({interval}; estimated relMSE {relmse:.2e})", percent(relmse));
         if self.denoised().is_some() {
             return format!("noise before denoising: {noise}");
         }
