@@ -30,8 +30,8 @@ pub struct Finding {
     pub channel: usize,
     /// Of the first and the second picture.
     pub means: [f64; 2],
-    /// Standard error of their difference.
-    pub error: f64,
+    /// Standard errors of both.
+    pub errors: [f64; 2],
     /// Degrees of freedom.
     pub dof: f64,
     /// Chance of a difference as large where both means are equal; of this test alone.
@@ -45,6 +45,11 @@ impl Finding {
     /// The mean of both pictures.
     pub fn brightness(&self) -> f64 {
         0.5 * (self.means[0] + self.means[1])
+    }
+
+    /// Standard error of the difference.
+    pub fn error(&self) -> f64 {
+        self.errors[0].hypot(self.errors[1])
     }
 
     /// How much brighter the first picture is, as a fraction of the second; 0 where both are equal.
@@ -63,7 +68,7 @@ pub(super) fn test(a: &Mean, b: &Mean, area: Area, channel: usize, quantiles: &m
         area,
         channel,
         means: [a.mean, b.mean],
-        error: var.sqrt(),
+        errors: [a.var.sqrt(), b.var.sqrt()],
         dof: f64::INFINITY,
         p: 1.0,
         detectable: 0.0,
@@ -77,11 +82,12 @@ pub(super) fn test(a: &Mean, b: &Mean, area: Area, channel: usize, quantiles: &m
     finding.dof = 1.0 / (wa * wa / a.dof + wb * wb / b.dof);
     let skewness = (a.third - b.third) / (var * var.sqrt());
     let skewness = if skewness.is_finite() { skewness } else { 0.0 };
+    let error = var.sqrt();
     if beyond != 0.0 {
-        finding.p = skew_corrected_p(beyond / finding.error, skewness, finding.dof);
+        finding.p = skew_corrected_p(beyond / error, skewness, finding.dof);
     }
     let light = finding.brightness();
-    let reach = (quantiles.two_sided(finding.dof) + normal_quantile(POWER)) * finding.error;
+    let reach = (quantiles.two_sided(finding.dof) + normal_quantile(POWER)) * error;
     finding.detectable = if light > 0.0 { ROUNDING + reach / light } else { f64::INFINITY };
     finding
 }

@@ -36,14 +36,17 @@ def main(job):
 
     notes = []
     scene = load(mi, job, notes)
-    film = scene.sensors()[0].film()
-    answer(size=[int(v) for v in film.crop_size()], version=mi.__version__, notes=notes)
+    width, height = (int(v) for v in scene.sensors()[0].film().crop_size())
+    answer(size=[width, height], version=mi.__version__, notes=notes)
+    # Without just-in-time compilation the pixels of a pass draw from the streams seed * pixels + i, where i counts the
+    # pixels of whole blocks of 32x32: neighbouring seeds would share streams.
+    stride = -(-(-(-width // 32) * -(-height // 32) * 1024) // (width * height))
 
     import numpy as np
 
     for line in sys.stdin:
         order = json.loads(line)
-        image = mi.render(scene, sensor=0, seed=order["seed"], spp=order["spp"])
+        image = mi.render(scene, sensor=0, seed=order["seed"] * stride % 2**32, spp=order["spp"])
         np.asarray(image, dtype="<f4")[..., :3].tofile(order["path"])
         answer()
 
