@@ -12,9 +12,9 @@
 //! Rare bright samples ("fireflies") are where such tests go wrong, in both directions. Nothing is clamped or left
 //! out, since that would shift the means of two renderers by different amounts. Instead:
 //!
-//! - *The noise of a block may not have been seen in it.* A block of a picture is never taken to be relatively less
-//!   noisy than the larger one around it, unless nothing in it is noisy at all: a firefly that missed the block by
-//!   chance still counts (`borrow` in `units.rs`).
+//! - *The noise of a block may not have been seen in it.* Where the larger block around it has fireflies, and too few for
+//!   this one to have met them for sure, it is not taken to be relatively less noisy than that: a firefly that missed
+//!   it by chance still counts (`borrow` in `units.rs`).
 //! - *A few fireflies know little about themselves.* The degrees of freedom come from how the variance is shared out
 //!   over the pixels: a block whose noise sits in one pixel has two.
 //! - *One-sided tails* are corrected to the next order by Hall's transformation

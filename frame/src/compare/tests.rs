@@ -115,6 +115,33 @@ fn fireflies_do_not_hide_what_is_wrong_elsewhere() {
 }
 
 #[test]
+fn noise_without_a_tail_stays_where_it_is() {
+    // A stripe that is very noisy, as the edge of a lamp is, and evenly so: blocks elsewhere keep their own noise.
+    let mut random = Random::new(35);
+    let reach = |rows, noise, random: &mut Random| {
+        let stripe = Scene { noise, ..TAME };
+        let mut draw = || {
+            let halves = [0, 1].map(|_| {
+                let mut half = Passes::new([SIDE; 2]);
+                for _ in 0..8 {
+                    let of = |p: usize, random: &mut Random| {
+                        if p / SIDE < rows { stripe } else { TAME }.draw(p, random)
+                    };
+                    let plane: Vec<f32> = (0..SIDE * SIDE).map(|p| of(p, random) as f32).collect();
+                    half.push([&plane; 3], 4);
+                }
+                half.estimate().expect("enough passes")
+            });
+            Halves::Two(Box::new(halves))
+        };
+        let comparison = compare(&draw(), &draw());
+        comparison.family(Parts::Blocks(8)).expect("is tested").findings.last().expect("has some").detectable
+    };
+    let (quiet, striped) = (reach(0, 0.0, &mut random), reach(2, 30.0, &mut random));
+    assert!((striped / quiet - 1.0).abs() < 0.3, "{striped} with the stripe, {quiet} without");
+}
+
+#[test]
 fn the_detectable_bias_is_found_with_its_power_and_not_less() {
     // A uniform bias of just that size, seen by the mean of the whole picture in one channel: 300 trials at 90 %, a
     // standard error of 1.7 %; three of them.

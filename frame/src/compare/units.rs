@@ -145,8 +145,15 @@ fn mean_of(sums: &Sums, n: usize) -> Mean {
     Mean { mean: sums.mean / n, var: sums.var / (n * n), third: sums.third / (n * n * n), dof }
 }
 
-/// A unit of a picture is taken to be at least as noisy, for its brightness, as the larger one around it: with few
-/// samples a bright event may have missed it by chance, and the mean that lacks it would look certain.
+/// Rare bright events that a unit should have met for its own noise to be believed.
+const EVENTS: f64 = 16.0;
+
+/// A unit in which too few rare events are to be expected is taken to be at least as noisy, for its brightness, as the
+/// larger one around it: they may have missed it by chance, and a mean that lacks them would look certain.
+///
+/// Events of one size that come at random make a mean whose skewness γ is one over the root of their number. The larger
+/// unit's γ, carried over to the pixels of the smaller, therefore tells how many are to be expected there: `1/γ²`. Noise
+/// without a tail, such as that of a lamp's edge, expects thousands and is not borrowed.
 ///
 /// `more` is how many times as many pixels the larger one has. A unit in which neither picture has any noise keeps
 /// that: there, equality is exact.
@@ -160,8 +167,10 @@ fn borrow(inner: &mut [Mean; 2], outer: &[Mean; 2], more: f64) {
         return;
     }
     for (inner, outer) in inner.iter_mut().zip(outer) {
+        let skewness = outer.third / (outer.var * outer.var.sqrt());
+        let rare = skewness * skewness * more > 1.0 / EVENTS;
         let var = outer.var * more * scale * scale;
-        if var > inner.var {
+        if rare && var > inner.var {
             inner.var = var;
             inner.third = outer.third * more * more * scale.powi(3);
             inner.dof = outer.dof;

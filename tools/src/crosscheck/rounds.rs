@@ -175,7 +175,7 @@ mod tests {
                 state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                 ((state >> 40) as f32) / (1 << 24) as f32
             };
-            (0..16).for_each(|_| drop(uniform())); // seeds that are alike begin alike
+            (0..16).for_each(|_| _ = uniform()); // seeds that are alike begin alike
             let scale = 12.0_f32.sqrt() / (spp as f32).sqrt();
             Ok(std::array::from_fn(|_| {
                 (0..64 * 64).map(|_| brightness + scale * (uniform() - 0.5)).collect()

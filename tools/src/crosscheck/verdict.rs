@@ -138,8 +138,19 @@ pub fn number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".into(),
         v if !(1e-3..1e5).contains(&v) => format!("{value:.1e}"),
-        v if v < 1.0 => format!("{value:.4}"),
-        v if v < 100.0 => format!("{value:.3}"),
-        _ => format!("{value:.0}"),
+        v => format!("{value:.*}", (2 - v.log10().floor() as i32).max(0) as usize),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits_that_count() {
+        let shown = [0.0, 0.8, 0.00123456, -12.345, 123.456, 4567.8, 5.2e-7, 1e9].map(number);
+        assert_eq!(shown, ["0", "0.800", "0.00123", "-12.3", "123", "4568", "5.2e-7", "1.0e9"]);
+        let shown = [0.0, 0.00469, 0.125, 0.0123, 1e-6, f64::INFINITY].map(percent);
+        assert_eq!(shown, ["0 %", "0.47 %", "12 %", "1.2 %", "1.0e-4 %", "any amount"]);
     }
 }
