@@ -50,6 +50,7 @@
 //! Files appear whole or not at all ([`write_whole`]), and the same content is the same bytes. Errors name
 //! the file, and say whose fault they are ([`FrameError::fault`]).
 
+pub mod compare;
 mod error;
 mod estimate;
 mod exr;

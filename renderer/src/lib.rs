@@ -25,4 +25,5 @@ pub use effects::{Called, Counters, Effect, effects};
 pub use film::Sample;
 pub use prepare::{PrepareError, Prepared, WorldHit, WorldRay, WorldScatter};
 pub use render::{Progress, Recorder, Rendered, TileSamples, render};
+pub use sampling::Splat;
 pub use settings::{Sampler, Settings};

@@ -1,5 +1,6 @@
 //! What the tests that cross crates share: small scenes, rendered.
 
+pub mod start;
 pub mod table;
 
 use glam::DVec3;

@@ -1,14 +1,12 @@
 //! Bad input and a failing machine: an exit code, one clear message, and no half of a file.
 
-mod start;
-
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
 use limpid_frame::read_exr;
-use start::{Call, call, cornell_box, folder, limpid, names_in};
+use limpid_tests::start::{Call, call, cornell_box, done, folder, limpid, names_in};
 
 fn refused(folder: &Path, line: &str, code: i32, words: &[&str]) {
     let before = names_in(folder);
@@ -104,12 +102,12 @@ fn bad_frames_are_named() {
         refused(folder.path(), &format!("info {name}"), 2, &[name]);
         refused(folder.path(), &format!("metrics {name} {name}"), 2, &[name]);
     }
-    start::done(folder.path(), "render ball.xml --spp 1 -o a.exr");
-    start::done(folder.path(), "render ball.xml --spp 1 --size 9x5 -o b.exr");
+    done(folder.path(), "render ball.xml --spp 1 -o a.exr");
+    done(folder.path(), "render ball.xml --spp 1 --size 9x5 -o b.exr");
     refused(folder.path(), "metrics a.exr b.exr", 2, &["b.exr", "24x16", "9x5"]);
     refused(folder.path(), "denoise a.exr --albedo b.exr -o c.exr", 2, &["b.exr", "24x16", "9x5"]);
     refused(folder.path(), "denoise a.exr a.exr -o c.exr", 2, &["a.exr", "channel"]);
-    start::done(folder.path(), "denoise a.exr -o c.exr");
+    done(folder.path(), "denoise a.exr -o c.exr");
     refused(folder.path(), "denoise c.exr -o d.exr", 2, &["c.exr", "denoised already"]);
 }
 

@@ -1,13 +1,11 @@
 //! The program as a user starts it: what it writes, under which name, and what it says.
 
-mod start;
-
 use std::fs;
 use std::path::Path;
 
 use limpid_frame::{Frame, RecordTile, read_exr};
+use limpid_tests::start::{call, cornell_box, done, folder, names_in};
 use serde_json::Value;
-use start::{call, cornell_box, done, folder, names_in};
 
 fn frame(folder: &Path, name: &str) -> Frame {
     read_exr(&folder.join(name)).expect("is a frame")

@@ -49,6 +49,8 @@ pub enum Command {
     Metrics(Metrics),
     /// Write a scene as Mitsuba XML that renders the same picture there.
     Export(Export),
+    /// Compare with Mitsuba 3: do both compute the same picture, and how sure is that?
+    Crosscheck(Crosscheck),
     /// List every denoiser with its inputs and its source.
     Methods,
 }
@@ -122,6 +124,43 @@ pub struct Render {
     /// Upper bound for a sample's radiance: takes fireflies out and light with them, so the picture gets darker.
     #[arg(long, value_name = "L", value_parser = values::clamp, allow_negative_numbers = true, help_heading = "Quality")]
     pub clamp: Option<f32>,
+    /// Leave out what limpid does otherwise than Mitsuba on purpose: to compare the two. Takes its near and far clip
+    /// (0.01 and 10000) where the file states none.
+    #[arg(long, help_heading = "Quality")]
+    pub as_mitsuba: bool,
+}
+
+/// `limpid crosscheck`
+#[derive(Args, Debug)]
+pub struct Crosscheck {
+    /// Scene files: Mitsuba XML.
+    #[arg(required = true, value_name = "SCENE")]
+    pub scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// Size of the pictures in pixels [default: the scene's]. The smaller, the sooner it is known.
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub size: Option<[u32; 2]>,
+    /// Samples per pixel of each picture [default: the scene's; with --power 64 to begin with].
+    #[arg(long, value_name = "N", value_parser = values::spp, allow_negative_numbers = true)]
+    pub spp: Option<u32>,
+    /// Render on until a difference of 0.5 % of the whole picture would show, at most to 65536 samples.
+    #[arg(long)]
+    pub power: bool,
+    /// Compare with this picture (its R, G, B) instead of running Mitsuba; with the scene's own pixel filter.
+    #[arg(long, value_name = "REF.exr", requires = "against_variance")]
+    pub against: Option<PathBuf>,
+    /// The variance of each pixel's mean in that picture, per channel: of independent passes, the variance between
+    /// them over their number.
+    #[arg(long, value_name = "V.exr", requires = "against")]
+    pub against_variance: Option<PathBuf>,
+    /// Another seed gives independent noise on both sides.
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+    pub seed: u64,
+    /// Folder for the report: index.html, pictures, difference, p values; a folder in it for each of several scenes
+    /// [default: SCENE's name with -crosscheck, here; with --json none].
+    #[arg(short, value_name = "REPORT")]
+    pub output: Option<PathBuf>,
 }
 
 /// How a scene file is read.

@@ -62,6 +62,17 @@ pub enum CliError {
     /// Standard output cannot be written to.
     #[error("standard output: {0}")]
     Stdout(io::Error),
+    /// Mitsuba 3 cannot be run here.
+    #[error("Mitsuba: {problem}\n  = help: {help}")]
+    Mitsuba {
+        /// What went wrong.
+        problem: String,
+        /// What to do about it.
+        help: String,
+    },
+    /// The command ran, and its answer is no.
+    #[error("{0}")]
+    No(String),
     /// Ctrl-C.
     #[error("interrupted: {kept}")]
     Interrupted {
@@ -84,7 +95,8 @@ impl CliError {
                 Fault::Input => 2,
                 Fault::Machine => 3,
             },
-            Self::Threads { .. } | Self::Stdout(_) | Self::Write { .. } => 3,
+            Self::Threads { .. } | Self::Stdout(_) | Self::Write { .. } | Self::Mitsuba { .. } => 3,
+            Self::No(_) => 1,
             Self::Interrupted { .. } => 130,
         }
     }

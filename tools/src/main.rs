@@ -3,7 +3,9 @@
 //! One module a subcommand; each takes its options and gives back nothing or a [`CliError`], which knows
 //! its exit code. What is for machines goes to standard output, what is for people to standard error.
 
+mod as_mitsuba;
 mod cli;
+mod crosscheck;
 mod denoise;
 mod error;
 mod export;
@@ -58,6 +60,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Command::Info(options) => info::run(&options, &cli.common),
         Command::Export(options) => export::run(&options, &cli.common),
         Command::Metrics(options) => metrics::run(&options, &cli.common),
+        Command::Crosscheck(options) => crosscheck::run(&options, &cli.common),
         Command::Methods => methods::run(&cli.common),
     }
 }

@@ -121,7 +121,7 @@ fn check_file(path: &Path) -> io::Result<()> {
 }
 
 /// Whose fault it is that no file can be made: a full disk is the machine's, anything else the path's.
-fn output_error(path: &Path, source: io::Error) -> CliError {
+pub fn output_error(path: &Path, source: io::Error) -> CliError {
     let path = path.to_owned();
     match source.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => FrameError::WriteFailed { path, source }.into(),

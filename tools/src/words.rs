@@ -60,7 +60,7 @@ pub fn describe(warning: &Warning) -> String {
 
 /// Says why the program ends, and gives its exit code.
 pub fn fail(error: &CliError) -> ExitCode {
-    let word = if error.exit_code() == 130 { "" } else { "error: " };
+    let word = if matches!(error.exit_code(), 1 | 130) { "" } else { "error: " };
     match error {
         CliError::Scene(scene) => say(format_args!("{word}{}", with_excerpt(scene))),
         _ => say(format_args!("{word}{error}")),

@@ -7,5 +7,5 @@ mod sobol;
 pub mod warp;
 
 pub use distribution::{Distribution1d, Distribution2d};
-pub use pixel_filter::PixelFilterSampler;
+pub use pixel_filter::{PixelFilterSampler, Splat};
 pub use sampler::{Dim, PixelSampler};

@@ -28,6 +28,7 @@ struct Recorded<'a> {
     rr_depth: u32,
     clamp: Option<f32>,
     hide_emitters: bool,
+    as_mitsuba: bool,
     layers: Vec<String>,
     defines: &'a [(String, String)],
 }
@@ -50,6 +51,7 @@ pub fn of(scene: &Scene, camera: usize, settings: &Settings, options: &Render) -
         rr_depth: settings.rr_depth,
         clamp: settings.clamp,
         hide_emitters: settings.hide_emitters,
+        as_mitsuba: options.as_mitsuba,
         layers: layers::names(&settings.layers),
         defines: &options.reading.defines,
     };

@@ -17,7 +17,7 @@ use crate::denoise::Denoising;
 use crate::error::CliError;
 use crate::output::Pictures;
 use crate::progress::{with_bar, with_spinner};
-use crate::{interrupt, output, scene, system, words};
+use crate::{as_mitsuba, interrupt, output, scene, system, words};
 use records::Records;
 use report::{Report, Seconds};
 
@@ -32,7 +32,10 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
     let mut seconds = Seconds::default();
 
     let begin = Instant::now();
-    let scene = scene::load(&options.scene, &options.reading, common)?;
+    let mut scene = scene::load(&options.scene, &options.reading, common)?;
+    if options.as_mitsuba {
+        as_mitsuba::apply(&mut scene);
+    }
     seconds.load = begin.elapsed().as_secs_f64();
 
     let camera = settings::camera(&scene, options)?;

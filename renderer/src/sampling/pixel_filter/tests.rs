@@ -112,3 +112,22 @@ fn parameters_that_make_no_filter_make_a_box() {
         }
     }
 }
+
+#[test]
+fn splatted_pixels_share_as_much_as_their_filter_says() {
+    let of = |filter| Splat::of(filter).correlation;
+    assert_eq!(of(PixelFilter::Box), 1.0);
+    assert!((of(PixelFilter::Tent { radius: 1.0 }) - 2.25).abs() < 1e-6);
+    // A Gaussian: ∫f² = 1/(2 √π σ); Mitsuba's is a little narrower for the value that it takes off.
+    let gaussian = of(PixelFilter::Gaussian { stddev: 0.5 });
+    assert!((gaussian - std::f64::consts::PI).abs() < 0.02, "{gaussian}");
+    for filter in FILTERS {
+        // Against the formula, on a grid of its own.
+        let steps = (0..40_000).map(|i| -10.0 + (f64::from(i) + 0.5) / 2000.0);
+        let (sum, squares) =
+            steps.map(|x| formula(filter, x)).fold((0.0, 0.0), |(s, q), f| (s + f, q + f * f));
+        let expected = (sum * sum / squares / 2000.0).powi(2).max(1.0);
+        let found = of(filter);
+        assert!((found / expected - 1.0).abs() < 1e-3, "{filter:?}: {found} for {expected}");
+    }
+}

@@ -18,12 +18,16 @@ pub fn limpid() -> Command {
 
 /// What a call came to.
 pub struct Call {
+    /// Its exit code.
     pub code: i32,
+    /// What it wrote to standard output.
     pub stdout: String,
+    /// What it wrote to standard error.
     pub stderr: String,
 }
 
 impl Call {
+    /// What a process that has ended came to.
     pub fn of(output: &Output) -> Self {
         Self {
             code: output.status.code().unwrap_or(-1), // ended by a signal

@@ -1,0 +1,76 @@
+//! limpid beside Mitsuba 3, over the table of small scenes. Where Mitsuba cannot be had the tests say so and pass.
+//!
+//! The whole table, as the docs show it:
+//!
+//! ```sh
+//! cargo test --release --test mitsuba -- --ignored --nocapture
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use limpid_tests::start::call;
+use limpid_tests::table::{self, Row};
+use serde_json::Value;
+
+/// What `crosscheck` says of the scenes; `None` where there is no Mitsuba.
+fn crosschecked(folder: &Path, scenes: &[PathBuf]) -> Option<Vec<Value>> {
+    let mut words: Vec<String> = ["crosscheck", "--power", "--json"].map(String::from).to_vec();
+    words.extend(scenes.iter().map(|path| path.display().to_string()));
+    let call = call(folder, words);
+    if call.code == 3 {
+        println!("skipped: no mitsuba: {}", call.stderr.trim());
+        return None;
+    }
+    assert!(call.code == 0 || call.code == 1, "exit code {}: {}", call.code, call.stderr);
+    let report: Value = serde_json::from_str(&call.stdout).unwrap_or_else(|e| panic!("{e}: {}", call.stdout));
+    Some(report["scenes"].as_array().expect("a list").clone())
+}
+
+/// Checks the rows and prints them as a table; each scene's false-alarm rate is 1 %, the seeds are fixed.
+fn check(rows: Vec<(Row, PathBuf)>, folder: &Path) {
+    let (mut lines, mut failed) = (Vec::new(), Vec::new());
+    let (mut blocks, mut reach) = (0, 0.0f64);
+    for (row, path) in &rows {
+        let Some(found) = crosschecked(folder, std::slice::from_ref(path)) else { return };
+        let found = &found[0];
+        let number = |key: &str| found[key].as_f64().unwrap_or(f64::NAN);
+        let line = format!(
+            "| {} | {:+.2} % | {:.2} % | {:.2} | {} | {} |",
+            row.name,
+            100.0 * (number("mean_ratio") - 1.0),
+            100.0 * number("detectable_bias"),
+            number("p"),
+            number("spp"),
+            found["agree"].as_bool().map_or("?", |yes| if yes { "yes" } else { "**no**" }),
+        );
+        println!("{line}");
+        if found["agree"] != true || !(0.0..=0.005).contains(&number("detectable_bias")) {
+            failed.push(format!("{line} {}", found["worst"]));
+        }
+        blocks += found["blocks"].as_u64().unwrap_or(0);
+        reach = reach.max(number("detectable_bias"));
+        lines.push(line);
+    }
+    println!(
+        "{} scenes, {blocks} places, every difference of {:.2} % of a picture would show",
+        rows.len(),
+        100.0 * reach
+    );
+    assert!(failed.is_empty(), "{} of {} differ:\n{}", failed.len(), rows.len(), failed.join("\n"));
+}
+
+#[test]
+fn mitsuba_agrees_on_a_few_scenes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let rows = table::write(folder.path()).expect("writes");
+    check(rows.into_iter().filter(|(row, _)| row.in_subset).collect(), folder.path());
+}
+
+#[test]
+#[ignore = "the whole table takes a quarter of an hour"]
+fn mitsuba_agrees_on_the_whole_table() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let only = std::env::var("LIMPID_ROWS").unwrap_or_default();
+    let rows = table::write(folder.path()).expect("writes");
+    check(rows.into_iter().filter(|(row, _)| row.name.contains(&only)).collect(), folder.path());
+}

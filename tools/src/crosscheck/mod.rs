@@ -1,0 +1,263 @@
+//! `limpid crosscheck`: is it the same picture as Mitsuba's, and how sure is that?
+//!
+//! Mitsuba loads the user's own file; both render it with a box filter and independent samples, in passes with seeds of
+//! their own, and `limpid_frame::compare` tests the means. What it says is told here: in words, as JSON, as a page.
+
+mod against;
+mod environment;
+mod mitsuba;
+mod ours;
+mod report;
+mod rounds;
+mod verdict;
+
+use std::path::Path;
+use std::time::Instant;
+
+use limpid_frame::compare::{Family, Finding, Parts};
+use serde_json::{Value, json};
+
+use crate::cli::{Common, Crosscheck};
+use crate::error::CliError;
+use crate::progress::with_spinner;
+use crate::{output, words};
+use environment::Environment;
+use mitsuba::Mitsuba;
+use ours::Ours;
+use report::About;
+use rounds::{Outcome, Theirs};
+use verdict::Verdict;
+
+/// Samples of the first round of `--power`.
+const FIRST_ROUND: u32 = 64;
+/// Places that JSON lists.
+const LISTED: usize = 5;
+
+/// Compares each scene; the answer is no where one does not agree.
+pub fn run(options: &Crosscheck, common: &Common) -> Result<(), CliError> {
+    let folders = report::folders(&options.scenes, options.output.as_deref(), common.json);
+    // Before the work that they are to show.
+    folders.iter().flatten().try_for_each(|folder| report::make_folder(folder))?;
+    let environment = match options.against {
+        Some(_) => None,
+        None => Some(Environment::ready(common)?),
+    };
+    let mut checked = Vec::new();
+    for (scene, folder) in options.scenes.iter().zip(&folders) {
+        let done = check(scene, folder.as_deref(), environment.as_ref(), options, common)?;
+        if !common.json {
+            words::result(table(scene, folder.as_deref(), &done))?;
+        }
+        checked.push(done);
+    }
+    if let Some(folder) = options.output.as_ref().filter(|_| options.scenes.len() > 1) {
+        let rows: Vec<_> =
+            checked.iter().zip(&folders).filter_map(|(done, folder)| row(done, folder.as_deref()?)).collect();
+        let page = report::index(&rows);
+        limpid_frame::write_whole(&folder.join("index.html"), |file| {
+            std::io::Write::write_all(file, page.as_bytes())
+        })?;
+    }
+    if common.json {
+        let scenes: Vec<Value> = checked.iter().map(Checked::json).collect();
+        let agree = checked.iter().all(|done| done.outcome.agrees());
+        words::result(json!({ "agree": agree, "scenes": scenes }))?;
+    }
+    let no: Vec<&Checked> = checked.iter().filter(|done| !done.outcome.agrees()).collect();
+    match no.as_slice() {
+        [] => Ok(()),
+        no => {
+            let say = |done: &&Checked| format!("{}: {}", done.scene, verdict::sentences(&done.outcome));
+            Err(CliError::No(no.iter().map(say).collect::<Vec<_>>().join("\n")))
+        }
+    }
+}
+
+/// A scene that was compared.
+struct Checked {
+    scene: String,
+    other: String,
+    outcome: Outcome,
+    notes: Vec<String>,
+    report: Option<String>,
+    seconds: f64,
+}
+
+/// What Mitsuba loads: the file itself. A scene in another format is to be exported here first.
+fn for_mitsuba(scene: &Path) -> Result<std::path::PathBuf, CliError> {
+    Ok(scene.to_owned())
+}
+
+fn check(
+    scene: &Path,
+    folder: Option<&Path>,
+    environment: Option<&Environment>,
+    options: &Crosscheck,
+    common: &Common,
+) -> Result<Checked, CliError> {
+    let begin = Instant::now();
+    let mut ours = Ours::new(scene, options, common)?;
+    let size = ours.size();
+    let spp = options.spp.unwrap_or(if options.power { FIRST_ROUND } else { ours.spp });
+    let warnings = std::mem::take(&mut ours.warnings);
+    let splat = ours.splat;
+    let seed = options.seed;
+    let mut our_pass = |pass: u32, spp: u32| {
+        let seed = seed << 32 | u64::from(pass); // passes of one seed and of another never meet
+        Ok(with_spinner(common, "rendering here", || ours.pass(seed, spp)))
+    };
+    let mut tell = |outcome: &Outcome| {
+        let reach = verdict::percent(outcome.comparison.detectable_bias);
+        words::note(
+            common,
+            format_args!(
+                "{}: at {} samples per pixel a difference of {reach} would show",
+                scene.display(),
+                outcome.spp
+            ),
+        );
+    };
+    let (outcome, other, notes) = match (environment, &options.against, &options.against_variance) {
+        (None, Some(picture), Some(variance)) => {
+            let (reference, notes) = against::picture(picture, variance, size, splat)?;
+            notes.iter().for_each(|note| words::note(common, format_args!("note: {note}")));
+            let theirs = Theirs::Fixed(reference);
+            let outcome = rounds::run(size, spp, options.power, &mut our_pass, theirs, &mut tell)?;
+            (outcome, picture.display().to_string(), notes)
+        }
+        (Some(environment), ..) => {
+            let file = for_mitsuba(scene)?;
+            let load = || Mitsuba::start(environment, &file, options, common);
+            let mut mitsuba = with_spinner(common, "Mitsuba reads the scene", load)?;
+            if mitsuba.size != size {
+                let [[w, h], [x, y]] = [size, mitsuba.size];
+                let problem = format!(
+                    "limpid reads a film of {w}x{h} pixels, Mitsuba one of {x}x{y}; set one with `--size`"
+                );
+                return Err(CliError::File { path: scene.to_owned(), problem });
+            }
+            let mut notes = std::mem::take(&mut mitsuba.notes);
+            notes.iter().for_each(|note| words::note(common, format_args!("note: {note}")));
+            let other = format!("Mitsuba {} ({})", mitsuba.version, environment.variant);
+            notes.insert(0, "both use a box filter and independent samples, whatever the file names".into());
+            let mut their_pass = |pass: u32, spp: u32| {
+                let seed = (seed as u32).wrapping_mul(1009).wrapping_add(pass);
+                with_spinner(common, "rendering with Mitsuba", || mitsuba.pass(&file, seed, spp))
+            };
+            let theirs = Theirs::Renders(&mut their_pass);
+            let outcome = rounds::run(size, spp, options.power, &mut our_pass, theirs, &mut tell)?;
+            (outcome, other, notes)
+        }
+        _ => unreachable!("`--against` comes with its variance, and without it Mitsuba runs"),
+    };
+    if let Some(folder) = folder {
+        let verdict = verdict::sentences(&outcome);
+        let about = About { scene, other: &other, notes: &notes, warnings: &warnings, verdict: &verdict };
+        report::write(folder, &about, &outcome)?;
+    }
+    Ok(Checked {
+        scene: scene.display().to_string(),
+        other,
+        outcome,
+        notes,
+        report: folder.map(|folder| folder.display().to_string()),
+        seconds: begin.elapsed().as_secs_f64(),
+    })
+}
+
+impl Checked {
+    fn json(&self) -> Value {
+        let comparison = &self.outcome.comparison;
+        let mut all: Vec<(&Finding, &Family)> = comparison
+            .families
+            .iter()
+            .flat_map(|family| family.findings.iter().map(move |f| (f, family)))
+            .collect();
+        all.sort_by(|(a, x), (b, y)| {
+            let clear = |p: f64, level: f64| p.max(f64::MIN_POSITIVE).ln() / level.ln();
+            clear(b.p, y.level).total_cmp(&clear(a.p, x.level))
+        });
+        let worst: Vec<Value> = all
+            .iter()
+            .take(LISTED)
+            .map(|(f, family)| {
+                let channel = ["R", "G", "B"][f.channel];
+                json!({
+                    "parts": name(family.parts), "x": f.area.x, "y": f.area.y, "width": f.area.width, "height": f.area.height,
+                    "channel": channel, "limpid": f.means[0], "other": f.means[1], "bias": f.bias(),
+                    "p": f.p, "alarm": f.p < family.level,
+                })
+            })
+            .collect();
+        json!({
+            "scene": self.scene,
+            "agree": self.outcome.agrees(),
+            "p": comparison.p,
+            "mean_ratio": comparison.mean_ratio,
+            "detectable_bias": comparison.detectable_bias,
+            "blocks": comparison.blocks,
+            "spp": self.outcome.spp,
+            "verdict": Verdict::of(&self.outcome).class(),
+            "spp_needed": self.outcome.spp_needed().map(f64::ceil),
+            "left_out": comparison.left_out,
+            "other": self.other,
+            "families": comparison.families.iter().map(in_json).collect::<Vec<_>>(),
+            "worst": worst,
+            "notes": self.notes,
+            "report": self.report,
+            "seconds": self.seconds,
+        })
+    }
+}
+
+fn in_json(family: &Family) -> Value {
+    let mut reaches: Vec<f64> =
+        family.findings.iter().map(|f| f.detectable).filter(|r| r.is_finite()).collect();
+    reaches.sort_by(f64::total_cmp);
+    json!({
+        "parts": name(family.parts),
+        "tests": family.findings.len(),
+        "p": family.p,
+        "level": family.level,
+        "alarms": family.findings.iter().filter(|finding| finding.p < family.level).count(),
+        "detectable_bias": { "median": reaches.get(reaches.len() / 2), "worst": reaches.last() },
+    })
+}
+
+fn name(parts: Parts) -> String {
+    match parts {
+        Parts::Whole => "whole".into(),
+        Parts::Weighted => "weighted".into(),
+        Parts::Sixteenths => "sixteenths".into(),
+        Parts::Blocks(side) => format!("blocks-{side}"),
+    }
+}
+
+/// What people see of a scene.
+fn table(scene: &Path, folder: Option<&Path>, done: &Checked) -> String {
+    let comparison = &done.outcome.comparison;
+    let mut lines = vec![
+        format!("{} beside {}", scene.display(), done.other),
+        format!("  {:<18} {}", "answer", Verdict::of(&done.outcome).word().to_lowercase()),
+        format!("  {:<18} {:+.3} %", "limpid brighter by", 100.0 * (comparison.mean_ratio - 1.0)),
+        format!("  {:<18} {}", "would show from", verdict::percent(comparison.detectable_bias)),
+        format!("  {:<18} {} (an alarm below 0.01)", "p", verdict::number(comparison.p)),
+        format!("  {:<18} {} in {} places", "samples per pixel", done.outcome.spp, comparison.blocks),
+    ];
+    if comparison.left_out > 0 {
+        lines.push(format!("  {:<18} {} pixels", "left out", comparison.left_out));
+    }
+    if let Some(folder) = folder {
+        lines.push(format!("  {:<18} {}", "report", folder.join("index.html").display()));
+    }
+    lines.join("\n")
+}
+
+/// The scene's row in the page of several.
+fn row(done: &Checked, folder: &Path) -> Option<(String, String, Verdict, f64, f64, f64)> {
+    let comparison = &done.outcome.comparison;
+    let folder = folder.file_name()?.to_string_lossy().into_owned();
+    let name = output::default_stem(Path::new(&done.scene)).display().to_string();
+    let verdict = Verdict::of(&done.outcome);
+    Some((name, folder, verdict, comparison.mean_ratio, comparison.detectable_bias, comparison.p))
+}

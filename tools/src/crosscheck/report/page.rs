@@ -1,0 +1,269 @@
+//! The page: one file with everything in it.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use limpid_frame::compare::{Family, Finding, Parts};
+
+use super::super::rounds::{Outcome, TARGET};
+use super::super::verdict::{Verdict, number, parts_in_words, percent};
+use super::About;
+
+/// Places that are listed.
+const LISTED: usize = 8;
+const CHANNELS: [&str; 3] = ["red", "green", "blue"];
+
+/// What the pictures show.
+pub struct Shown<'a> {
+    /// PNG files: ours, the other, difference, p values.
+    pub pictures: Vec<Vec<u8>>,
+    /// Brightness of the first two, in stops.
+    pub ev: f32,
+    /// The difference at which its colours are full.
+    pub full: f64,
+    /// The family that the p values are of.
+    pub blocks: &'a Family,
+}
+
+/// The page of one scene.
+pub fn page(about: &About, outcome: &Outcome, shown: &Shown) -> String {
+    let comparison = &outcome.comparison;
+    let [width, height] = outcome.ours.size();
+    let verdict = Verdict::of(outcome);
+    let places = places(outcome, shown.blocks);
+    let name = |path: &Path| escaped(&path.display().to_string());
+    let stem = crate::output::default_stem(about.scene);
+    let fields = [
+        ("TITLE", name(&stem)),
+        ("SCENE", name(about.scene)),
+        ("OTHER", escaped(about.other)),
+        ("CLASS", verdict.class().to_owned()),
+        ("WORD", verdict.word().to_owned()),
+        ("VERDICT", escaped(about.verdict)),
+        ("WIDTH", width.to_string()),
+        ("HEIGHT", height.to_string()),
+        ("SPP", outcome.spp.to_string()),
+        ("RATIO", format!("{:+.3} %", 100.0 * (comparison.mean_ratio - 1.0))),
+        ("REACH", percent(comparison.detectable_bias)),
+        ("TARGET", percent(TARGET)),
+        ("P", number(comparison.p)),
+        ("FAMILIES", families(&comparison.families)),
+        ("PLACES", places_table(&places)),
+        ("BOXES", boxes(&places)),
+        ("NOTES", list(about.notes)),
+        ("WARNINGS", warnings(about.warnings)),
+        ("LEFT_OUT", comparison.left_out.to_string()),
+        ("EV", format!("{:+.1}", shown.ev)),
+        ("FULL", number(shown.full)),
+        ("BLOCK", escaped(&parts_in_words(shown.blocks.parts))),
+        ("LEVEL", number(shown.blocks.level)),
+        ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
+        ("PICTURE_0", base64(&shown.pictures[0])),
+        ("PICTURE_1", base64(&shown.pictures[1])),
+        ("PICTURE_2", base64(&shown.pictures[2])),
+        ("PICTURE_3", base64(&shown.pictures[3])),
+    ];
+    filled(include_str!("page.html"), &fields)
+}
+
+/// The page of several scenes: a table with links. Each row is a scene, its folder, its outcome and the verdict.
+pub fn index(rows: &[(String, String, Verdict, f64, f64, f64)]) -> String {
+    let mut table = String::new();
+    for (scene, folder, verdict, ratio, reach, p) in rows {
+        let _ = write!(
+            table,
+            "<tr class=\"{}\"><td><a href=\"{}/index.html\">{}</a></td><td><b>{}</b></td><td>{:+.3} %</td><td>{}</td>\
+             <td>{}</td></tr>",
+            verdict.class(),
+            escaped(folder),
+            escaped(scene),
+            verdict.word(),
+            100.0 * (ratio - 1.0),
+            percent(*reach),
+            number(*p),
+        );
+    }
+    filled(include_str!("index.html"), &[("ROWS", table), ("TARGET", percent(TARGET))])
+}
+
+/// `{{NAME}}` becomes its value; values are not searched again.
+fn filled(template: &str, fields: &[(&str, String)]) -> String {
+    let mut page = String::new();
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once("{{") {
+        let (key, after) = after.split_once("}}").unwrap_or((after, ""));
+        page.push_str(before);
+        page.push_str(fields.iter().find(|(name, _)| *name == key).map_or("", |(_, value)| value));
+        rest = after;
+    }
+    page + rest
+}
+
+fn families(families: &[Family]) -> String {
+    let mut rows = String::new();
+    for family in families {
+        let mut reaches: Vec<f64> =
+            family.findings.iter().map(|f| f.detectable).filter(|r| r.is_finite()).collect();
+        reaches.sort_by(f64::total_cmp);
+        let (middle, worst) = (reaches.get(reaches.len() / 2), reaches.last());
+        let in_words = |reach: Option<&f64>| reach.map_or("–".to_owned(), |reach| percent(*reach));
+        let least = family.findings.iter().map(|finding| finding.p).fold(1.0, f64::min);
+        let alarms = family.findings.iter().filter(|finding| finding.p < family.level).count();
+        let _ = write!(
+            rows,
+            "<tr{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+            if alarms > 0 { " class=\"differ\"" } else { "" },
+            escaped(&parts_in_words(family.parts)),
+            family.findings.len(),
+            number(least),
+            number(family.level),
+            alarms,
+            in_words(middle),
+            in_words(worst),
+        );
+    }
+    rows
+}
+
+/// Where the pictures differ most clearly: small blocks, and larger ones that hold none of those.
+fn places(outcome: &Outcome, finest: &Family) -> Vec<(Finding, bool)> {
+    let families = outcome.comparison.families.iter();
+    let divided = families.filter(|family| !matches!(family.parts, Parts::Whole | Parts::Weighted));
+    let mut all: Vec<(Finding, f64)> = divided
+        .chain([finest])
+        .flat_map(|family| family.findings.iter().map(|f| (*f, family.level)))
+        .collect();
+    // By how far each is towards an alarm of its own family.
+    let clear = |(finding, level): &(Finding, f64)| finding.p.max(f64::MIN_POSITIVE).ln() / level.ln();
+    all.sort_by(|a, b| clear(b).total_cmp(&clear(a)));
+    let mut chosen: Vec<(Finding, bool)> = Vec::new();
+    for (finding, level) in all {
+        if chosen.len() < LISTED && !chosen.iter().any(|(other, _)| overlap(&finding, other)) {
+            chosen.push((finding, finding.p < level));
+        }
+    }
+    chosen
+}
+
+fn overlap(a: &Finding, b: &Finding) -> bool {
+    let (a, b) = (a.area, b.area);
+    a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height
+}
+
+fn places_table(places: &[(Finding, bool)]) -> String {
+    let mut rows = String::new();
+    for (i, (finding, alarm)) in places.iter().enumerate() {
+        let area = finding.area;
+        let _ = write!(
+            rows,
+            "<tr{}><td>{}</td><td>{}, {}</td><td>{}&thinsp;×&thinsp;{}</td><td>{}</td><td>{}</td><td>{}</td>\
+             <td>{:+.2} % ± {}</td><td>{}</td><td>{}</td></tr>",
+            if *alarm { " class=\"differ\"" } else { "" },
+            i + 1,
+            area.x,
+            area.y,
+            area.width,
+            area.height,
+            CHANNELS[finding.channel],
+            number(finding.means[0]),
+            number(finding.means[1]),
+            100.0 * finding.bias(),
+            percent(finding.error() / finding.means[1].abs().max(f64::MIN_POSITIVE)),
+            number(finding.p),
+            if *alarm { "alarm" } else { "chance" },
+        );
+    }
+    rows
+}
+
+fn boxes(places: &[(Finding, bool)]) -> String {
+    let mut svg = String::new();
+    for (i, (finding, alarm)) in places.iter().enumerate() {
+        let area = finding.area;
+        let _ = write!(
+            svg,
+            "<g class=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text></g>",
+            if *alarm { "alarm" } else { "chance" },
+            area.x,
+            area.y,
+            area.width,
+            area.height,
+            area.x as f64 + 0.5 * area.width as f64,
+            area.y as f64 + 0.5 * area.height as f64,
+            i + 1,
+        );
+    }
+    svg
+}
+
+fn list(items: &[String]) -> String {
+    items.iter().map(|item| format!("<li>{}</li>", escaped(item))).collect()
+}
+
+fn warnings(warnings: &[String]) -> String {
+    if warnings.is_empty() {
+        return String::new();
+    }
+    let intro = "limpid reads these parts of the scene otherwise than they stand there. Look here first if the pictures differ:";
+    format!("<h3>Warnings of the reader</h3><p>{intro}</p><ul>{}</ul>", list(warnings))
+}
+
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// RFC 4648, with padding.
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let at = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
+        let word = at(0) << 16 | at(1) << 8 | at(2);
+        for i in 0..4 {
+            let digit = DIGITS[(word >> (18 - 6 * i) & 63) as usize];
+            text.push(if i <= chunk.len() { char::from(digit) } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_has_the_standards_examples() {
+        let of = |text: &str| base64(text.as_bytes());
+        let expected = ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"];
+        assert_eq!(["", "f", "fo", "foo", "foob", "fooba", "foobar"].map(of), expected);
+    }
+
+    #[test]
+    fn names_of_files_cannot_write_into_the_page() {
+        let page = filled("<p>{{A}}</p>{{B}}", &[("A", escaped("<script>{{B}}\"")), ("B", "x".into())]);
+        assert_eq!(page, "<p>&lt;script&gt;{{B}}&quot;</p>x");
+    }
+
+    #[test]
+    fn every_field_of_the_pages_is_filled() {
+        for (page, known) in [(include_str!("page.html"), 28), (include_str!("index.html"), 2)] {
+            let names: std::collections::BTreeSet<&str> = page
+                .split("{{")
+                .skip(1)
+                .filter_map(|part| part.split_once("}}").map(|(name, _)| name))
+                .collect();
+            assert!(names.len() <= known, "{names:?}");
+        }
+    }
+}
