@@ -4,11 +4,13 @@ mod flatten;
 mod perturb;
 
 use glam::Vec2;
-use limpid_scenes::{Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Scalar, Scene};
+use limpid_scenes::{
+    Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Scalar, Scene, WardVariant,
+};
 
 use crate::bsdf::{
-    Bsdf, Coating, Conductor, Dielectric, Diffuse, Ior, Lobes, Microfacet, Perturbation, Plastic,
-    RoughConductor, RoughPlastic, Turn,
+    Bsdf, Coating, Conductor, Dielectric, Diffuse, Ior, Lobes, Microfacet, Perturbation, Phong, Plastic,
+    RoughConductor, RoughDielectric, RoughDiffuse, RoughPlastic, ThinDielectric, Turn, Ward,
 };
 use crate::prepare::PrepareError;
 use crate::texture::Textures;
@@ -75,6 +77,36 @@ pub enum Model {
         diffuse: Color,
         specular: Color,
         nonlinear: bool,
+    },
+    RoughDielectric {
+        distribution: Distribution,
+        alpha_u: Scalar,
+        alpha_v: Scalar,
+        eta: f32,
+        reflectance: Color,
+        transmittance: Color,
+    },
+    ThinDielectric {
+        eta: f32,
+        reflectance: Color,
+        transmittance: Color,
+    },
+    RoughDiffuse {
+        albedo: Color,
+        alpha: Scalar,
+        fast: bool,
+    },
+    Phong {
+        exponent: Scalar,
+        diffuse: Color,
+        specular: Color,
+    },
+    Ward {
+        variant: WardVariant,
+        alpha_u: Scalar,
+        alpha_v: Scalar,
+        diffuse: Color,
+        specular: Color,
     },
 }
 
@@ -150,6 +182,7 @@ impl Materials {
     #[inline(always)]
     fn at(&self, model: &Model, uv: Vec2, textures: &Textures) -> Bsdf<'_> {
         let color = |c: Color| textures.color(c, uv);
+        let scalar = |x: Scalar| textures.scalar(x, uv);
         let complex = |ior: Option<ConductorIor>| ior.map(|ior| Ior { eta: color(ior.eta), k: color(ior.k) });
         match *model {
             Model::Diffuse { albedo } => Bsdf::Diffuse(Diffuse { albedo: color(albedo) }),
@@ -157,7 +190,7 @@ impl Materials {
                 Bsdf::Conductor(Conductor { ior: complex(ior), specular: color(specular) })
             }
             Model::RoughConductor { distribution, alpha_u, alpha_v, ior, specular } => {
-                let (u, v) = (textures.scalar(alpha_u, uv), textures.scalar(alpha_v, uv));
+                let (u, v) = (scalar(alpha_u), scalar(alpha_v));
                 let facets = Microfacet::new(distribution, u, v);
                 Bsdf::RoughConductor(RoughConductor { facets, ior: complex(ior), specular: color(specular) })
             }
@@ -173,13 +206,42 @@ impl Materials {
                 let coating = &self.coatings[coating];
                 Bsdf::RoughPlastic(RoughPlastic::new(coating, color(diffuse), color(specular), nonlinear))
             }
+            Model::RoughDielectric { distribution, alpha_u, alpha_v, eta, reflectance, transmittance } => {
+                let (reflectance, transmittance) = (color(reflectance), color(transmittance));
+                Bsdf::RoughDielectric(RoughDielectric {
+                    facets: Microfacet::new(distribution, scalar(alpha_u), scalar(alpha_v)),
+                    boundary: Dielectric { eta, reflectance, transmittance },
+                })
+            }
+            Model::ThinDielectric { eta, reflectance, transmittance } => {
+                Bsdf::ThinDielectric(ThinDielectric {
+                    eta,
+                    reflectance: color(reflectance),
+                    transmittance: color(transmittance),
+                })
+            }
+            Model::RoughDiffuse { albedo, alpha, fast } => {
+                Bsdf::RoughDiffuse(RoughDiffuse::new(color(albedo), scalar(alpha), fast))
+            }
+            Model::Phong { exponent, diffuse, specular } => {
+                Bsdf::Phong(Phong::new(scalar(exponent), color(diffuse), color(specular)))
+            }
+            Model::Ward { variant, alpha_u, alpha_v, diffuse, specular } => {
+                let (u, v) = (scalar(alpha_u), scalar(alpha_v));
+                Bsdf::Ward(Ward::new(variant, u, v, color(diffuse), color(specular)))
+            }
         }
     }
 }
 
 impl Model {
     fn is_anisotropic(&self) -> bool {
-        matches!(self, Self::RoughConductor { alpha_u, alpha_v, .. } if alpha_u != alpha_v)
+        matches!(
+            self,
+            Self::RoughConductor { alpha_u, alpha_v, .. }
+            | Self::RoughDielectric { alpha_u, alpha_v, .. }
+            | Self::Ward { alpha_u, alpha_v, .. } if alpha_u != alpha_v
+        )
     }
 }
 
@@ -265,6 +327,44 @@ fn prepare(material: &Material, coatings: &mut Coatings) -> Result<Model, Prepar
             specular: specular_reflectance,
             nonlinear,
         },
+        MaterialKind::RoughDielectric {
+            distribution,
+            alpha_u,
+            alpha_v,
+            int_ior,
+            ext_ior,
+            specular_reflectance,
+            specular_transmittance,
+        } => Model::RoughDielectric {
+            distribution,
+            alpha_u,
+            alpha_v,
+            eta: relative(int_ior, ext_ior)?,
+            reflectance: specular_reflectance,
+            transmittance: specular_transmittance,
+        },
+        MaterialKind::ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance } => {
+            Model::ThinDielectric {
+                eta: relative(int_ior, ext_ior)?,
+                reflectance: specular_reflectance,
+                transmittance: specular_transmittance,
+            }
+        }
+        MaterialKind::RoughDiffuse { reflectance, alpha, fast_approx } => {
+            Model::RoughDiffuse { albedo: reflectance, alpha, fast: fast_approx }
+        }
+        MaterialKind::Phong { exponent, diffuse_reflectance, specular_reflectance } => {
+            Model::Phong { exponent, diffuse: diffuse_reflectance, specular: specular_reflectance }
+        }
+        MaterialKind::Ward { variant, alpha_u, alpha_v, diffuse_reflectance, specular_reflectance } => {
+            Model::Ward {
+                variant,
+                alpha_u,
+                alpha_v,
+                diffuse: diffuse_reflectance,
+                specular: specular_reflectance,
+            }
+        }
         MaterialKind::TwoSided { .. }
         | MaterialKind::Null
         | MaterialKind::Mask { .. }

@@ -7,12 +7,15 @@ impl MaterialKind {
     /// through does not count.
     pub fn transmits(&self) -> bool {
         match self {
-            Self::Dielectric { .. } => true,
+            Self::Dielectric { .. } | Self::RoughDielectric { .. } | Self::ThinDielectric { .. } => true,
             Self::Diffuse { .. }
             | Self::Conductor { .. }
             | Self::RoughConductor { .. }
             | Self::Plastic { .. }
             | Self::RoughPlastic { .. }
+            | Self::RoughDiffuse { .. }
+            | Self::Phong { .. }
+            | Self::Ward { .. }
             | Self::TwoSided { .. }
             | Self::Null
             | Self::Mask { .. }
@@ -31,6 +34,11 @@ impl MaterialKind {
             | Self::Dielectric { .. }
             | Self::Plastic { .. }
             | Self::RoughPlastic { .. }
+            | Self::RoughDielectric { .. }
+            | Self::ThinDielectric { .. }
+            | Self::RoughDiffuse { .. }
+            | Self::Phong { .. }
+            | Self::Ward { .. }
             | Self::Null => Vec::new(),
             Self::Mask { inner, .. } | Self::Perturbed { inner, .. } => vec![*inner],
             Self::TwoSided { front: a, back: b } | Self::Blend { first: a, second: b, .. } => vec![*a, *b],

@@ -21,6 +21,18 @@ const BSDFS: &[&str] = &[
     r#"<bsdf type="blendbsdf"><bsdf type="diffuse"/><bsdf type="dielectric"/></bsdf>"#,
     r#"<bsdf type="mask"><bsdf type="twosided"><bsdf type="plastic"/></bsdf></bsdf>"#,
     r#"<bsdf type="normalmap"><rgb name="normalmap" value="0.7 0.4 0.9"/><bsdf type="roughconductor"/></bsdf>"#,
+    r#"<bsdf type="roughdielectric"/>"#,
+    r#"<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><float name="alpha" value="0.001"/></bsdf>"#,
+    r#"<bsdf type="roughdielectric"><float name="alpha_u" value="1"/><float name="alpha_v" value="0.01"/><float name="int_ior" value="1.0003"/></bsdf>"#,
+    r#"<bsdf type="roughdielectric"><float name="int_ior" value="1"/><float name="ext_ior" value="1"/></bsdf>"#,
+    r#"<bsdf type="thindielectric"/>"#,
+    r#"<bsdf type="roughdiffuse"><float name="alpha" value="0.7"/></bsdf>"#,
+    r#"<bsdf type="roughdiffuse"><boolean name="use_fast_approx" value="true"/></bsdf>"#,
+    r#"<bsdf type="phong"/>"#,
+    r#"<bsdf type="phong"><float name="exponent" value="1e8"/><rgb name="diffuse_reflectance" value="0"/></bsdf>"#,
+    r#"<bsdf type="ward"/>"#,
+    r#"<bsdf type="ward"><string name="variant" value="ward"/><float name="alpha_u" value="0.001"/><float name="alpha_v" value="1"/></bsdf>"#,
+    r#"<bsdf type="ward"><string name="variant" value="ward-duer"/><rgb name="diffuse_reflectance" value="0"/></bsdf>"#,
     r#"<bsdf type="twosided"><bsdf type="roughconductor"><string name="distribution" value="ggx"/></bsdf></bsdf>"#,
 ];
 

@@ -19,7 +19,7 @@ pub struct Dielectric {
 impl Dielectric {
     /// Index on the far side of `wo` over that on its side.
     #[inline]
-    fn relative_eta(&self, wo: Vec3) -> f32 {
+    pub(super) fn relative_eta(&self, wo: Vec3) -> f32 {
         if wo.z > 0.0 { self.eta } else { 1.0 / self.eta }
     }
 

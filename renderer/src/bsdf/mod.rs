@@ -11,11 +11,17 @@ mod conductor;
 mod dielectric;
 mod diffuse;
 mod fresnel;
+mod glossy;
 mod lobes;
 mod microfacet;
+mod phong;
 mod plastic;
 mod rough_conductor;
+mod rough_dielectric;
+mod rough_diffuse;
 mod rough_plastic;
+mod thin_dielectric;
+mod ward;
 
 use glam::{Vec2, Vec3};
 
@@ -25,9 +31,14 @@ pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
 pub use lobes::{Lobes, MOST_LOBES, Perturbation, Turn};
 pub use microfacet::Microfacet;
+pub use phong::Phong;
 pub use plastic::Plastic;
 pub use rough_conductor::RoughConductor;
+pub use rough_dielectric::RoughDielectric;
+pub use rough_diffuse::RoughDiffuse;
 pub use rough_plastic::{Coating, RoughPlastic};
+pub use thin_dielectric::ThinDielectric;
+pub use ward::Ward;
 
 /// A sampled direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,6 +98,16 @@ pub enum Bsdf<'a> {
     Plastic(Plastic),
     /// Rough coating over a diffuse base.
     RoughPlastic(RoughPlastic<'a>),
+    /// Rough glass.
+    RoughDielectric(RoughDielectric),
+    /// A pane of glass.
+    ThinDielectric(ThinDielectric),
+    /// Oren and Nayar.
+    RoughDiffuse(RoughDiffuse),
+    /// Modified Phong.
+    Phong(Phong),
+    /// Ward.
+    Ward(Ward),
 }
 
 impl Bsdf<'_> {
@@ -100,6 +121,11 @@ impl Bsdf<'_> {
             Self::Dielectric(b) => b.sample(wo, u_lobe),
             Self::Plastic(b) => b.sample(wo, u_lobe, u),
             Self::RoughPlastic(b) => b.sample(wo, u_lobe, u),
+            Self::RoughDielectric(b) => b.sample(wo, u_lobe, u),
+            Self::ThinDielectric(b) => b.sample(wo, u_lobe),
+            Self::RoughDiffuse(b) => b.sample(wo, u),
+            Self::Phong(b) => b.sample(wo, u_lobe, u),
+            Self::Ward(b) => b.sample(wo, u_lobe, u),
         }
     }
 
@@ -108,10 +134,14 @@ impl Bsdf<'_> {
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
         match self {
             Self::Diffuse(b) => b.eval(wo, wi),
-            Self::Conductor(_) | Self::Dielectric(_) => BsdfEval::ZERO,
+            Self::Conductor(_) | Self::Dielectric(_) | Self::ThinDielectric(_) => BsdfEval::ZERO,
             Self::RoughConductor(b) => b.eval(wo, wi),
             Self::Plastic(b) => b.eval(wo, wi),
             Self::RoughPlastic(b) => b.eval(wo, wi),
+            Self::RoughDielectric(b) => b.eval(wo, wi),
+            Self::RoughDiffuse(b) => b.eval(wo, wi),
+            Self::Phong(b) => b.eval(wo, wi),
+            Self::Ward(b) => b.eval(wo, wi),
         }
     }
 
@@ -119,9 +149,11 @@ impl Bsdf<'_> {
     #[inline]
     pub fn has_non_delta(&self) -> bool {
         match self {
-            Self::Diffuse(_) | Self::RoughConductor(_) | Self::RoughPlastic(_) => true,
-            Self::Conductor(_) | Self::Dielectric(_) => false,
+            Self::Diffuse(_) | Self::RoughDiffuse(_) => true,
+            Self::RoughConductor(_) | Self::RoughPlastic(_) | Self::Phong(_) | Self::Ward(_) => true,
+            Self::Conductor(_) | Self::Dielectric(_) | Self::ThinDielectric(_) => false,
             Self::Plastic(b) => b.has_base(),
+            Self::RoughDielectric(b) => !b.is_matched(),
         }
     }
 
@@ -130,11 +162,14 @@ impl Bsdf<'_> {
     #[inline]
     pub fn near_delta(&self) -> bool {
         match self {
-            Self::Diffuse(_) => false,
-            Self::Conductor(_) | Self::Dielectric(_) => true,
+            Self::Diffuse(_) | Self::RoughDiffuse(_) => false,
+            Self::Conductor(_) | Self::Dielectric(_) | Self::ThinDielectric(_) => true,
             Self::RoughConductor(b) => b.facets.widest() < NEAR_DELTA_ALPHA,
             Self::Plastic(b) => !b.has_base(),
             Self::RoughPlastic(b) => !b.has_base() && b.alpha() < NEAR_DELTA_ALPHA,
+            Self::RoughDielectric(b) => b.is_matched() || b.facets.widest() < NEAR_DELTA_ALPHA,
+            Self::Phong(b) => !b.has_base() && b.alpha() < NEAR_DELTA_ALPHA,
+            Self::Ward(b) => !b.has_base() && b.alpha() < NEAR_DELTA_ALPHA,
         }
     }
 
@@ -147,6 +182,11 @@ impl Bsdf<'_> {
             Self::Dielectric(b) => b.features(wo),
             Self::Plastic(b) => b.features(wo),
             Self::RoughPlastic(b) => b.features(wo),
+            Self::RoughDielectric(b) => b.features(wo),
+            Self::ThinDielectric(b) => b.features(wo),
+            Self::RoughDiffuse(b) => b.features(wo),
+            Self::Phong(b) => b.features(wo),
+            Self::Ward(b) => b.features(wo),
         }
     }
 }

@@ -4,6 +4,7 @@
 use std::sync::LazyLock;
 
 use limpid_scenes::Distribution::{self, Beckmann, Ggx};
+use limpid_scenes::WardVariant::{self, Balanced, WardDuer};
 use limpid_testkit::{Random, assert_chi2, furnace};
 
 use super::*;
@@ -40,6 +41,29 @@ fn dielectric(eta: f32) -> Bsdf<'static> {
     Bsdf::Dielectric(Dielectric { eta, reflectance: Rgb::splat(0.9), transmittance: ORANGE })
 }
 
+fn glass(distribution: Distribution, alpha: [f32; 2], eta: f32) -> Bsdf<'static> {
+    let facets = Microfacet::new(distribution, alpha[0], alpha[1]);
+    let boundary = Dielectric { eta, reflectance: Rgb::splat(0.9), transmittance: ORANGE };
+    Bsdf::RoughDielectric(RoughDielectric { facets, boundary })
+}
+
+fn pane(eta: f32) -> Bsdf<'static> {
+    let (reflectance, transmittance) = (Rgb::splat(0.9), ORANGE);
+    Bsdf::ThinDielectric(ThinDielectric { eta, reflectance, transmittance })
+}
+
+fn rough_diffuse(albedo: Rgb, alpha: f32, fast: bool) -> Bsdf<'static> {
+    Bsdf::RoughDiffuse(RoughDiffuse::new(albedo, alpha, fast))
+}
+
+fn phong(exponent: f32, diffuse: Rgb, specular: Rgb) -> Bsdf<'static> {
+    Bsdf::Phong(Phong::new(exponent, diffuse, specular))
+}
+
+fn ward(variant: WardVariant, alpha: [f32; 2], diffuse: Rgb, specular: Rgb) -> Bsdf<'static> {
+    Bsdf::Ward(Ward::new(variant, alpha[0], alpha[1], diffuse, specular))
+}
+
 fn cases() -> Vec<Case> {
     vec![
         ("diffuse", Bsdf::Diffuse(Diffuse { albedo: ORANGE })),
@@ -61,6 +85,23 @@ fn cases() -> Vec<Case> {
         ("rough plastic, Beckmann", rough_plastic(0, ORANGE, Rgb::ONE, false)),
         ("rough plastic, nonlinear GGX", rough_plastic(1, ORANGE, Rgb::splat(0.7), true)),
         ("rough plastic, narrow GGX", rough_plastic(2, Rgb::splat(0.2), Rgb::ONE, false)),
+        ("rough glass, GGX", glass(Ggx, [0.3, 0.3], 1.5)),
+        ("rough glass, wide GGX", glass(Ggx, [1.0, 1.0], 1.5)),
+        ("rough glass, Beckmann", glass(Beckmann, [0.2, 0.2], 1.5)),
+        ("rough glass, anisotropic GGX", glass(Ggx, [0.1, 0.4], 1.33)),
+        ("rough glass, anisotropic Beckmann", glass(Beckmann, [0.5, 0.1], 1.0 / 1.33)),
+        ("rough glass, nearly matched", glass(Ggx, [0.4, 0.4], 1.02)),
+        ("pane", pane(1.5)),
+        ("rough diffuse", rough_diffuse(ORANGE, 0.3, false)),
+        ("very rough diffuse", rough_diffuse(ORANGE, 0.7, false)),
+        ("rough diffuse, fast", rough_diffuse(Rgb::ONE, 0.5, true)),
+        ("phong", phong(30.0, Rgb::splat(0.5), 0.5 * ORANGE)),
+        ("narrow phong", phong(1000.0, Rgb::splat(0.2), 0.5 * ORANGE)),
+        ("phong without a base", phong(0.5, Rgb::ZERO, Rgb::ONE)),
+        ("ward", ward(WardVariant::Ward, [0.4, 0.4], Rgb::splat(0.3), 0.7 * ORANGE)),
+        ("anisotropic ward-duer", ward(WardDuer, [0.1, 0.3], Rgb::splat(0.3), 0.3 * ORANGE)),
+        ("anisotropic balanced ward", ward(Balanced, [0.3, 0.1], 0.5 * ORANGE, Rgb::splat(0.5))),
+        ("balanced ward without a base", ward(Balanced, [0.4, 0.4], Rgb::ZERO, Rgb::ONE)),
     ]
 }
 
@@ -73,6 +114,20 @@ fn needles() -> Vec<Case> {
         ("blade, Beckmann", rough(Beckmann, 1e-3, 1.0, None)),
         ("black rough plastic", rough_plastic(3, Rgb::ZERO, Rgb::ONE, false)),
         ("out of range", rough(Ggx, f32::NAN, 1e30, None)),
+        ("glass needle, GGX", glass(Ggx, [1e-4, 1e-4], 1.5)),
+        ("glass needle, Beckmann", glass(Beckmann, [1e-3, 1e-3], 1.0 / 1.5)),
+        ("glass blade", glass(Ggx, [1e-3, 0.5], 1.5)),
+        ("glass of a needle in it", glass(Beckmann, [1e-3, 1e-3], 1.000_277)),
+        ("glass of a needle in it, wide", glass(Ggx, [0.5, 0.5], 1.0f32.next_up())),
+        ("glass of the same index", glass(Ggx, [0.3, 0.3], 1.0)),
+        ("glass out of range", glass(Ggx, [f32::NAN, 1e30], 1e6)),
+        ("pane of nothing", pane(1.0)),
+        ("rough diffuse out of range", rough_diffuse(ORANGE, 1e30, false)),
+        ("diffuse of no roughness", rough_diffuse(ORANGE, f32::NAN, false)),
+        ("phong needle", phong(1e8, Rgb::ZERO, ORANGE)),
+        ("phong out of range", phong(f32::INFINITY, ORANGE, ORANGE)),
+        ("ward needle", ward(Balanced, [1e-3, 1e-3], Rgb::ZERO, ORANGE)),
+        ("ward blade", ward(WardVariant::Ward, [f32::NAN, 0.3], Rgb::splat(0.5), 0.5 * ORANGE)),
     ]
 }
 
@@ -110,8 +165,8 @@ fn sample_agrees_with_eval() {
             }
             let value = bsdf.eval(wo, s.wi);
             assert!((s.pdf / value.pdf - 1.0).abs() < 1e-5, "{name}: {wo} {s:?} {value:?}");
-            let off = (s.weight * s.pdf - value.f_cos).abs() / value.f_cos.total().max_element();
-            assert!(off < 1e-5, "{name}: {wo} {s:?} {value:?}");
+            let off = (s.weight * s.pdf - value.f_cos).abs();
+            assert!(off <= 1e-5 * value.f_cos.total().max_element(), "{name}: {wo} {s:?} {value:?}");
         });
     }
 }
@@ -137,7 +192,8 @@ impl std::ops::Sub for Split {
 #[test]
 fn samples_follow_their_density() {
     for (name, bsdf) in cases().into_iter().filter(|(_, bsdf)| bsdf.has_non_delta()) {
-        for cos in [1.0, 0.6, 0.1] {
+        let below: &[f32] = if has_two_sides(&bsdf) { &[-0.8, -0.2] } else { &[] };
+        for &cos in [1.0, 0.6, 0.1].iter().chain(below) {
             let wo = direction(cos);
             println!("{name}, cos {cos}");
             let draw = |lobe, u| bsdf.sample(wo, lobe, u).filter(|s| !s.delta).map(|s| s.wi);
@@ -160,7 +216,9 @@ fn albedo(bsdf: &Bsdf, wo: Vec3) -> Split {
 #[test]
 fn no_energy_is_gained() {
     for (name, bsdf) in all() {
-        for cos in COSINES.iter().flat_map(|&cos| [cos, -cos]) {
+        // Ward's first two forms gain light towards the horizon: that is how they are.
+        let gains = |cos: f32| ["ward", "anisotropic ward-duer", "ward blade"].contains(&name) && cos < 0.1;
+        for cos in COSINES.iter().flat_map(|&cos| [cos, -cos]).filter(|cos| !gains(cos.abs())) {
             let total = albedo(&bsdf, direction(cos)).total();
             assert!(total.min_element() >= 0.0 && total.max_element() < 1.001, "{name}, cos {cos}: {total}");
         }
@@ -207,8 +265,41 @@ fn refraction_goes_back_the_way_it_came() {
 }
 
 #[test]
+fn rough_refraction_is_the_same_both_ways_but_for_the_solid_angle() {
+    let mut random = Random::new(1);
+    let mut seen = 0;
+    for (name, bsdf) in cases() {
+        let Bsdf::RoughDielectric(glass) = bsdf else { continue };
+        let n2 = glass.boundary.eta.powi(2);
+        each_sample(&bsdf, 200, |wo, s| {
+            // Off the sample, or one direction would always be the mean of its lobe.
+            let wi = (s.wi + 0.1 * Vec3::new(random.uniform(), random.uniform(), 0.0)).normalize();
+            if wo.z * wi.z >= 0.0 || wo.z.abs().min(wi.z.abs()) < 1e-3 {
+                return;
+            }
+            let radiance = |a: Vec3, b: Vec3| {
+                let n2 = if a.z > 0.0 { n2 } else { 1.0 / n2 };
+                bsdf.eval(a, b).f_cos.specular * (n2.sqrt() / b.z.abs())
+            };
+            let (there, back) = (radiance(wo, wi), radiance(wi, wo));
+            assert!(
+                // Where all but all is reflected, what is not has few digits.
+                (there - back).abs().max_element() <= 1e-3 * there.max_element() + 1e-5,
+                "{name}: {there} {back}"
+            );
+            seen += u32::from(there != Rgb::ZERO);
+        });
+    }
+    assert!(seen > 1000, "{seen}");
+}
+
+fn has_two_sides(bsdf: &Bsdf) -> bool {
+    matches!(bsdf, Bsdf::Dielectric(_) | Bsdf::RoughDielectric(_) | Bsdf::ThinDielectric(_))
+}
+
+#[test]
 fn one_sided_models_are_black_from_behind() {
-    for (name, bsdf) in all().into_iter().filter(|(_, b)| !matches!(b, Bsdf::Dielectric(_))) {
+    for (name, bsdf) in all().into_iter().filter(|(_, bsdf)| !has_two_sides(bsdf)) {
         let (up, down) = (direction(0.7), direction(-0.7));
         assert_eq!(bsdf.sample(down, 0.3, Vec2::splat(0.3)), None, "{name}");
         for (wo, wi) in [(up, down), (down, up), (down, down)] {
@@ -273,6 +364,11 @@ fn parts_are_those_of_the_lobes() {
         ("glass", dielectric(1.5), false, true),
         ("plastic", plastic(1.5, ORANGE, Rgb::ONE, false), true, true),
         ("rough plastic", rough_plastic(0, ORANGE, Rgb::ONE, false), true, true),
+        ("rough glass", glass(Ggx, [0.3, 0.3], 1.5), false, true),
+        ("pane", pane(1.5), false, true),
+        ("rough diffuse", rough_diffuse(ORANGE, 0.3, false), true, false),
+        ("phong", phong(30.0, 0.5 * ORANGE, 0.5 * ORANGE), true, true),
+        ("ward", ward(Balanced, [0.1, 0.2], 0.5 * ORANGE, 0.5 * ORANGE), true, true),
     ] {
         let albedo = albedo(&bsdf, wo);
         assert_eq!(
@@ -317,10 +413,13 @@ fn feature_error(bsdf: &Bsdf, wo: Vec3) -> f32 {
 
 #[test]
 fn albedos_for_the_layers_are_within_five_per_cent() {
-    for (name, bsdf) in all().into_iter().filter(|(name, _)| *name != "out of range") {
-        for wo in [1.0, 0.7, 0.4, 0.15, 0.03].map(direction) {
+    for (name, bsdf) in all().into_iter().filter(|(name, _)| !name.contains("out of range")) {
+        let below: &[f32] = if has_two_sides(&bsdf) { &[-0.9, -0.5, -0.1] } else { &[] };
+        for wo in [1.0, 0.7, 0.4, 0.15, 0.03].iter().chain(below).copied().map(direction) {
             let error = feature_error(&bsdf, wo);
-            assert!(error < 0.05, "{name}, cos {}: {error}", wo.z);
+            // Of rough glass near index match, F bends too sharply for the quadrature.
+            let bound = if name.contains("nearly matched") { 0.1 } else { 0.05 };
+            assert!(error < bound, "{name}, cos {}: {error}", wo.z);
         }
     }
     let weak = Ior { eta: Rgb::new(1.5, 1.1, 0.3), k: Rgb::new(0.0, 0.3, 1.0) };
@@ -350,6 +449,15 @@ fn only_mirrors_glass_and_needles_are_passed_by_the_feature_layers() {
         ("black plastic", true, 0.0),
         ("rough plastic, Beckmann", false, 1.0),
         ("black rough plastic", true, 0.005f32.sqrt()),
+        ("rough glass, GGX", false, 0.3f32.sqrt()),
+        ("glass needle, GGX", true, 0.01),
+        ("glass of the same index", true, 0.0),
+        ("pane", true, 0.0),
+        ("rough diffuse", false, 1.0),
+        ("phong", false, 1.0),
+        ("phong needle", true, (2.0f32 / (1e8 + 2.0)).sqrt().sqrt()),
+        ("ward", false, 1.0),
+        ("ward needle", true, 1e-3f32.sqrt()),
     ] {
         let bsdf = near(name);
         assert_eq!((bsdf.near_delta(), bsdf.features(Vec3::Z).roughness), (delta, roughness), "{name}");

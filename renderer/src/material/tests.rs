@@ -141,9 +141,30 @@ fn maps_do_not_nest() {
     assert!(error.to_string().contains("inside another"), "{error}");
 }
 
+fn rough_glass(alpha_u: f32, alpha_v: f32) -> MaterialKind {
+    MaterialKind::RoughDielectric {
+        distribution: Distribution::Ggx,
+        alpha_u: Scalar::Constant(alpha_u),
+        alpha_v: Scalar::Constant(alpha_v),
+        int_ior: 1.5,
+        ext_ior: 1.0,
+        specular_reflectance: GREY,
+        specular_transmittance: GREY,
+    }
+}
+
+fn pane(int_ior: f32) -> MaterialKind {
+    MaterialKind::ThinDielectric {
+        int_ior,
+        ext_ior: 1.0,
+        specular_reflectance: GREY,
+        specular_transmittance: GREY,
+    }
+}
+
 #[test]
 fn what_has_two_sides_already_is_not_wrapped() {
-    for inner in [glass(1.5), two_sided(0, 0)] {
+    for inner in [glass(1.5), rough_glass(0.1, 0.1), pane(1.5), two_sided(0, 0)] {
         let error = of(vec![diffuse(0.5), inner, two_sided(0, 1)]).1.err().expect("no such material");
         assert!(error.to_string().contains("bsdf \"m2\": \"m1\" inside it has two sides"), "{error}");
     }
@@ -154,6 +175,7 @@ fn indices_without_a_ratio_are_errors() {
     for ior in [0.0, -1.5, f32::NAN, f32::INFINITY, 1e-42] {
         let error = of(vec![glass(ior)]).1.err().unwrap_or_else(|| panic!("{ior} was taken"));
         assert!(error.to_string().contains("indices of refraction"), "{error}");
+        assert!(of(vec![pane(ior)]).1.is_err());
     }
     assert!(of(vec![glass(1.0)]).1.is_ok());
 }
@@ -166,8 +188,82 @@ fn like_coatings_share_a_table() {
 
 #[test]
 fn only_unequal_widths_need_the_direction_of_u() {
-    let kinds = vec![rough_conductor(0.1, 0.1), rough_conductor(0.1, 0.2), diffuse(0.5), two_sided(2, 1)];
+    let ward = MaterialKind::Ward {
+        variant: WardVariant::Balanced,
+        alpha_u: Scalar::Constant(0.1),
+        alpha_v: Scalar::Constant(0.2),
+        diffuse_reflectance: GREY,
+        specular_reflectance: GREY,
+    };
+    let kinds = vec![
+        rough_conductor(0.1, 0.1),
+        rough_conductor(0.1, 0.2),
+        diffuse(0.5),
+        two_sided(2, 1),
+        rough_glass(0.1, 0.1),
+        rough_glass(0.1, 0.2),
+        ward,
+    ];
     let materials = of(kinds).1.unwrap();
-    let anisotropic: Vec<bool> = (0..4).map(|i| materials.needs_tangent(MaterialId(i))).collect();
-    assert_eq!(anisotropic, [false, true, false, true]);
+    let anisotropic: Vec<bool> = (0..7).map(|i| materials.needs_tangent(MaterialId(i))).collect();
+    assert_eq!(anisotropic, [false, true, false, true, false, true, true]);
+}
+
+#[test]
+fn textures_reach_every_number_of_the_new_models() {
+    use limpid_scenes::{Place, Texture, TextureId, TextureKind};
+    let kinds = |scalar: Scalar| {
+        let MaterialKind::RoughDielectric { distribution, int_ior, ext_ior, .. } = rough_glass(0.1, 0.1)
+        else {
+            unreachable!("just made")
+        };
+        let (white, color) = (Color::Constant([0.3; 3]), Color::Texture(TextureId(0)));
+        [
+            MaterialKind::RoughDielectric {
+                distribution,
+                alpha_u: scalar,
+                alpha_v: scalar,
+                int_ior,
+                ext_ior,
+                specular_reflectance: color,
+                specular_transmittance: color,
+            },
+            MaterialKind::ThinDielectric {
+                int_ior,
+                ext_ior,
+                specular_reflectance: white,
+                specular_transmittance: color,
+            },
+            MaterialKind::RoughDiffuse { reflectance: color, alpha: scalar, fast_approx: false },
+            MaterialKind::Phong { exponent: scalar, diffuse_reflectance: color, specular_reflectance: white },
+            MaterialKind::Ward {
+                variant: WardVariant::Ward,
+                alpha_u: scalar,
+                alpha_v: scalar,
+                diffuse_reflectance: white,
+                specular_reflectance: color,
+            },
+        ]
+    };
+    let board = |low: f32| Texture {
+        name: "t".into(),
+        kind: TextureKind::Checkerboard {
+            color0: Color::Constant([0.6; 3]),
+            color1: Color::Constant([low; 3]),
+        },
+        uv_from_surface: glam::DMat3::IDENTITY,
+        place: Place::default(),
+    };
+    for (i, kind) in kinds(Scalar::Texture(TextureId(1))).into_iter().enumerate() {
+        // Numbers alone, then colours alone, differ between two squares.
+        for boards in [[0.6, 0.1], [0.1, 0.6]] {
+            let mut scene = of(vec![kind.clone()]).0;
+            scene.textures = boards.map(board).to_vec();
+            let (materials, textures) = (Materials::prepare(&scene).unwrap(), Textures::prepare(&scene));
+            let side = materials.side(seen(0, false));
+            let at = |u| materials.at(&side.pieces[0].model, Vec2::new(u, 0.25), &textures);
+            let has_numbers = !matches!(kind, MaterialKind::ThinDielectric { .. });
+            assert_eq!(at(0.25) != at(0.75), has_numbers || boards[0] == 0.1, "model {i}, {boards:?}");
+        }
+    }
 }

@@ -2,7 +2,8 @@
 
 use super::{ExportError, Writer};
 use crate::{
-    Color, ConductorIor, Distribution, MaterialId, MaterialKind, NormalMap, Scalar, TextureId, TextureKind,
+    Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, NormalMap, Scalar, SceneError,
+    TextureId, TextureKind,
 };
 
 impl Writer<'_> {
@@ -20,7 +21,9 @@ impl Writer<'_> {
         if std::mem::replace(&mut written[id.0 as usize], true) {
             return Ok(());
         }
-        let kind = &self.scene.materials[id.0 as usize].kind;
+        let material = &self.scene.materials[id.0 as usize];
+        refuse_old(material)?;
+        let kind = &material.kind;
         for inner in kind.inner() {
             self.material(inner, written)?;
         }
@@ -112,6 +115,37 @@ impl Writer<'_> {
                 self.iors(*int_ior, *ext_ior);
                 self.coated(*diffuse_reflectance, *specular_reflectance, *nonlinear)
             }
+            MaterialKind::RoughDielectric {
+                distribution,
+                alpha_u,
+                alpha_v,
+                int_ior,
+                ext_ior,
+                specular_reflectance,
+                specular_transmittance,
+            } => {
+                if int_ior != ext_ior {
+                    self.distribution(*distribution);
+                    self.scalar("alpha_u", *alpha_u)?;
+                    self.scalar("alpha_v", *alpha_v)?;
+                }
+                self.iors(*int_ior, *ext_ior);
+                self.color("specular_reflectance", *specular_reflectance)?;
+                self.color("specular_transmittance", *specular_transmittance)
+            }
+            MaterialKind::ThinDielectric {
+                int_ior,
+                ext_ior,
+                specular_reflectance,
+                specular_transmittance,
+            } => {
+                self.iors(*int_ior, *ext_ior);
+                self.color("specular_reflectance", *specular_reflectance)?;
+                self.color("specular_transmittance", *specular_transmittance)
+            }
+            MaterialKind::RoughDiffuse { .. } | MaterialKind::Phong { .. } | MaterialKind::Ward { .. } => {
+                unreachable!("`refuse_old` has refused it")
+            }
             MaterialKind::TwoSided { front, back } => {
                 self.material_ref(*front);
                 if back != front {
@@ -186,6 +220,17 @@ fn material_id(MaterialId(id): MaterialId) -> String {
     format!("material_{id}")
 }
 
+/// Models of Mitsuba 0.x have no counterpart.
+fn refuse_old(material: &Material) -> Result<(), SceneError> {
+    let help = match material.kind {
+        MaterialKind::RoughDiffuse { .. } => "make it diffuse",
+        MaterialKind::Phong { .. } | MaterialKind::Ward { .. } => "make it roughplastic",
+        _ => return Ok(()),
+    };
+    let (element, kind) = (format!("bsdf \"{}\"", material.name), plugin(&material.kind));
+    Err(SceneError::at(&material.place, &element, format!("Mitsuba 3 has no {kind}"), help))
+}
+
 fn plugin(kind: &MaterialKind) -> &'static str {
     match kind {
         MaterialKind::Diffuse { .. } => "diffuse",
@@ -194,6 +239,13 @@ fn plugin(kind: &MaterialKind) -> &'static str {
         MaterialKind::Dielectric { .. } => "dielectric",
         MaterialKind::Plastic { .. } => "plastic",
         MaterialKind::RoughPlastic { .. } => "roughplastic",
+        // Mitsuba refuses a rough boundary between equal indices, which does what this does.
+        MaterialKind::RoughDielectric { int_ior, ext_ior, .. } if int_ior == ext_ior => "thindielectric",
+        MaterialKind::RoughDielectric { .. } => "roughdielectric",
+        MaterialKind::ThinDielectric { .. } => "thindielectric",
+        MaterialKind::RoughDiffuse { .. } => "roughdiffuse",
+        MaterialKind::Phong { .. } => "phong",
+        MaterialKind::Ward { .. } => "ward",
         MaterialKind::TwoSided { .. } => "twosided",
         MaterialKind::Null => "null",
         MaterialKind::Mask { .. } => "mask",

@@ -56,6 +56,8 @@ fn materials_come_back_as_they_were() {
         r#"<bsdf type="conductor"/>"#.into(),
         r#"<bsdf type="roughconductor"><string name="distribution" value="ggx"/><float name="alpha_u" value="0.3"/></bsdf>"#.into(),
         r#"<bsdf type="dielectric"><float name="int_ior" value="1.7"/></bsdf>"#.into(),
+        r#"<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><float name="alpha_v" value="0.3"/></bsdf>"#.into(),
+        r#"<bsdf type="thindielectric"><rgb name="specular_transmittance" value="0.1 0.2 0.3"/></bsdf>"#.into(),
         r#"<bsdf type="plastic"><boolean name="nonlinear" value="true"/></bsdf>"#.into(),
         r#"<bsdf type="roughplastic"><float name="alpha" value="0.37"/></bsdf>"#.into(),
         format!(r#"<bsdf type="twosided">{diffuse}<bsdf type="plastic"/></bsdf>"#),
@@ -75,6 +77,28 @@ fn materials_come_back_as_they_were() {
             again.warnings
         );
     }
+}
+
+#[test]
+fn models_of_0_x_are_refused_with_their_place() {
+    for kind in ["roughdiffuse", "phong", "ward"] {
+        let scene = loaded(&format!(r#"<shape type="cube"><bsdf type="{kind}" id="old"/></shape>"#));
+        let error = export_mitsuba(&scene, "assets", &mut |_, _| Ok(())).unwrap_err().to_string();
+        assert!(error.contains(&format!("bsdf \"old\": Mitsuba 3 has no {kind}")), "{error}");
+    }
+}
+
+#[test]
+fn rough_glass_between_equal_indices_becomes_what_mitsuba_takes() {
+    let inside = r#"<float name="int_ior" value="1.2"/><float name="ext_ior" value="1.2"/>"#;
+    let scene =
+        loaded(&format!(r#"<shape type="cube"><bsdf type="roughdielectric">{inside}</bsdf></shape>"#));
+    let (again, _) = there_and_back(&scene);
+    let kind = &again.materials[0].kind;
+    assert!(
+        matches!(kind, crate::MaterialKind::ThinDielectric { int_ior: 1.2, ext_ior: 1.2, .. }),
+        "{kind:?}"
+    );
 }
 
 #[test]

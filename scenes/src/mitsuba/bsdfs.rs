@@ -10,6 +10,7 @@ use crate::nearest::suggest;
 use crate::spectrum::{self, Quantity};
 use crate::{
     Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Place, Rgb, Scalar, SceneError,
+    WardVariant,
 };
 
 const WHITE: Color = Color::Constant([1.0; 3]);
@@ -160,6 +161,26 @@ impl Reader<'_> {
                 specular_reflectance: self.tint(object, "specular_reflectance")?,
                 nonlinear: object.boolean("nonlinear", false)?,
             },
+            "roughdielectric" => {
+                let distribution = self.distribution(object)?;
+                let alpha = self.alpha(object, "alpha", Scalar::Constant(0.1))?;
+                MaterialKind::RoughDielectric {
+                    distribution,
+                    alpha_u: self.alpha(object, "alpha_u", alpha)?,
+                    alpha_v: self.alpha(object, "alpha_v", alpha)?,
+                    int_ior: ior(object, "int_ior", 1.5046)?,
+                    ext_ior: ior(object, "ext_ior", 1.000277)?,
+                    specular_reflectance: self.tint(object, "specular_reflectance")?,
+                    specular_transmittance: self.tint(object, "specular_transmittance")?,
+                }
+            }
+            "thindielectric" => MaterialKind::ThinDielectric {
+                int_ior: ior(object, "int_ior", 1.5046)?,
+                ext_ior: ior(object, "ext_ior", 1.000277)?,
+                specular_reflectance: self.tint(object, "specular_reflectance")?,
+                specular_transmittance: self.tint(object, "specular_transmittance")?,
+            },
+            "roughdiffuse" | "phong" | "ward" => self.old_model(object, kind)?,
             _ => MaterialKind::RoughPlastic {
                 distribution: self.distribution(object)?,
                 alpha: width(object, "alpha")?,
@@ -174,6 +195,50 @@ impl Reader<'_> {
                 specular_reflectance: self.tint(object, "specular_reflectance")?,
                 nonlinear: object.boolean("nonlinear", false)?,
             },
+        })
+    }
+
+    /// Models that only Mitsuba 0.x has, with its defaults.
+    fn old_model(&mut self, object: &Object<'_>, kind: &str) -> Result<MaterialKind, SceneError> {
+        if kind == "roughdiffuse" {
+            let reflectance = self.color(object, "diffuse_reflectance", Quantity::Reflectance, GREY)?;
+            return Ok(MaterialKind::RoughDiffuse {
+                reflectance: self.color(object, "reflectance", Quantity::Reflectance, reflectance)?,
+                alpha: self.alpha(object, "alpha", Scalar::Constant(0.2))?,
+                fast_approx: object.boolean("use_fast_approx", false)?,
+            });
+        }
+        let diffuse_reflectance = self.color(object, "diffuse_reflectance", Quantity::Reflectance, GREY)?;
+        let dim = Color::Constant([0.2; 3]);
+        let specular_reflectance = self.color(object, "specular_reflectance", Quantity::Reflectance, dim)?;
+        if let (Color::Constant(diffuse), Color::Constant(specular)) =
+            (diffuse_reflectance, specular_reflectance)
+        {
+            let most = (0..3).map(|i| diffuse[i] + specular[i]).fold(0.0, f32::max);
+            if most > 1.0 {
+                let message = format!(
+                    "diffuse_reflectance and specular_reflectance add up to {most}, and are scaled together to 1"
+                );
+                self.warn(object.id, message);
+            }
+        }
+        if kind == "phong" {
+            let (wanted, accept) = ("at least 0 and at most 1e8", |n| (0.0..=1e8).contains(&n));
+            let exponent = self.scalar(object, "exponent", 30.0, wanted, accept)?;
+            return Ok(MaterialKind::Phong { exponent, diffuse_reflectance, specular_reflectance });
+        }
+        let variants = [
+            ("balanced", WardVariant::Balanced),
+            ("ward-duer", WardVariant::WardDuer),
+            ("ward", WardVariant::Ward),
+        ];
+        let alpha = self.alpha(object, "alpha", Scalar::Constant(0.1))?;
+        Ok(MaterialKind::Ward {
+            variant: object.choice("variant", &variants)?,
+            alpha_u: self.alpha(object, "alpha_u", alpha)?,
+            alpha_v: self.alpha(object, "alpha_v", alpha)?,
+            diffuse_reflectance,
+            specular_reflectance,
         })
     }
 

@@ -20,7 +20,14 @@ fn each_stand_in_is_named_with_its_place() {
             "shape \"serialized\": serialized is not read yet; the shape is left out",
         ),
         (r#"¦<emitter type="point"/>"#, "emitter \"point\": point is not read yet; the light is left out"),
-        (r#"¦<bsdf type="phong" id="p"/>"#, "bsdf \"p\": phong is not read yet; a diffuse bsdf stands in"),
+        (
+            r#"¦<bsdf type="coating" id="p"/>"#,
+            "bsdf \"p\": coating is not read yet; a diffuse bsdf stands in",
+        ),
+        (
+            r#"¦<bsdf type="ward"><rgb name="specular_reflectance" value="0.7"/></bsdf>"#,
+            "bsdf \"ward\": diffuse_reflectance and specular_reflectance add up to 1.2, and are scaled together to 1",
+        ),
         (
             r#"¦<bsdf type="roughcoating"><bsdf type="plastic"/></bsdf>"#,
             "bsdf \"roughcoating\": roughcoating is not read yet; the bsdf inside stands in",
