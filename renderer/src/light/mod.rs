@@ -5,12 +5,17 @@
 //! wide, or a million times as wide as it.
 
 mod choice;
+mod delta;
+mod directional;
 mod disk;
 mod environment;
 mod gather;
+mod point;
+mod projector;
 mod rectangle;
 mod shape;
 mod sphere;
+mod spot;
 mod triangle;
 mod triangles;
 
@@ -23,6 +28,7 @@ use crate::color::{Rgb, luminance};
 use crate::sampling::Distribution1d;
 use crate::texture::Textures;
 use choice::{Weigh, choose_from};
+use delta::Delta;
 use disk::Disk;
 use environment::EnvMap;
 use rectangle::Rectangle;
@@ -37,7 +43,8 @@ const NONE: u32 = u32::MAX;
 /// lies nearer to the light than that does not shade it.
 const SHORTEN: f64 = 1.0 - 1e-5;
 
-/// Index of a light: those with a surface first, in the order in which they were given.
+/// Index of a light: those with a surface first, then those that surround the scene, then those that no ray finds, each in
+/// the order in which they were given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LightId(pub u32);
 
@@ -48,8 +55,10 @@ pub struct LightSample {
     pub wi: Vec3,
     /// Length of the shadow ray; infinite for a light at infinity.
     pub t_max: f32,
-    /// Emitted towards the point.
+    /// Emitted towards the point; of a `delta` light, the irradiance on a surface across `wi`.
     pub radiance: Rgb,
+    /// No ray finds the light: `pdf` is the probability of its choice, and nothing shares the sample's weight.
+    pub delta: bool,
     /// Positive and finite. Where the true density is beyond `f32`, the radiance is scaled with it.
     pub pdf: f32,
     /// The primitive that the shadow ray must not see: the light's own.
@@ -103,6 +112,7 @@ enum Infinite {
 pub struct Lights {
     surfaces: Vec<SurfaceLight>,
     infinite: Vec<Infinite>,
+    deltas: Vec<Delta>,
     /// `None` if nothing emits.
     choice: Option<Distribution1d>,
     /// By shape: its light, or [`NONE`].
@@ -111,11 +121,13 @@ pub struct Lights {
 }
 
 impl Lights {
-    /// Builds the sampling tables. `scene_radius` is that of a sphere around the scene, in scene units.
+    /// Builds the sampling tables. `others` have no surface; `origin` is that of render space, in world space;
+    /// `scene_radius` is that of a sphere around the scene.
     pub fn from_shapes(
         shapes: Vec<LightShape>,
-        infinite: &[SceneLight],
+        others: &[SceneLight],
         textures: &Textures,
+        origin: DVec3,
         scene_radius: f64,
     ) -> Self {
         let mut of_shape = Vec::new();
@@ -130,12 +142,17 @@ impl Lights {
             .into_iter()
             .map(|LightShape { form, emission, .. }| SurfaceLight { form: Form::new(form), emission })
             .collect();
-        let infinite: Vec<_> = infinite.iter().map(|light| Infinite::new(&light.kind)).collect();
+        let infinite: Vec<_> = others.iter().filter_map(|light| Infinite::new(&light.kind)).collect();
+        let deltas: Vec<_> = others.iter().filter_map(|light| Delta::new(&light.kind, origin)).collect();
         let of_surfaces = surfaces.iter().map(|light| light.weigh(textures));
-        let weights: Vec<_> =
-            of_surfaces.chain(infinite.iter().map(|light| light.weigh(scene_radius))).collect();
+        let of_infinite = infinite.iter().map(|light| light.weigh(scene_radius));
+        let of_deltas = deltas.iter().map(|light| match light.power(scene_radius, textures) {
+            0.0 => Weigh::Never,
+            power => Weigh::Power(power),
+        });
+        let weights: Vec<_> = of_surfaces.chain(of_infinite).chain(of_deltas).collect();
         let bad_texels = infinite.iter().map(Infinite::bad_texels).sum();
-        Self { surfaces, infinite, choice: choose_from(&weights), of_shape, bad_texels }
+        Self { surfaces, infinite, deltas, choice: choose_from(&weights), of_shape, bad_texels }
     }
 
     /// The light that a shape is.
@@ -167,13 +184,20 @@ impl Lights {
             let drawn = light.form.sample(p.as_dvec3(), rest, u)?;
             let (wi, t_max) = (drawn.wi.as_vec3(), (drawn.distance * SHORTEN) as f32);
             let radiance = textures.color(light.emission, drawn.uv);
-            LightSample { wi, t_max, radiance, pdf: 0.0, skip: drawn.prim }.with_pdf(pmf * drawn.pdf)
-        } else {
-            let light = &self.infinite[light - self.surfaces.len()];
+            LightSample { wi, t_max, radiance, delta: false, pdf: 0.0, skip: drawn.prim }
+                .with_pdf(pmf * drawn.pdf)
+        } else if let Some(light) = self.infinite.get(light - self.surfaces.len()) {
             let wi = light.sample(u)?.as_vec3();
             // As it is looked up where a path leaves the scene in this direction.
             let (radiance, pdf) = light.eval(wi);
-            LightSample { wi, t_max: f32::INFINITY, radiance, pdf: 0.0, skip: NONE }.with_pdf(pmf * pdf)
+            LightSample { wi, t_max: f32::INFINITY, radiance, delta: false, pdf: 0.0, skip: NONE }
+                .with_pdf(pmf * pdf)
+        } else {
+            let light = &self.deltas[light - self.surfaces.len() - self.infinite.len()];
+            let arriving = light.at(p.as_dvec3(), textures)?;
+            let (wi, t_max) = (arriving.wi.as_vec3(), (arriving.distance * SHORTEN) as f32);
+            LightSample { wi, t_max, radiance: arriving.irradiance, delta: true, pdf: 0.0, skip: NONE }
+                .with_pdf(pmf)
         }
     }
 
@@ -295,12 +319,17 @@ impl Form {
 }
 
 impl Infinite {
-    fn new(kind: &LightKind) -> Self {
+    /// `None` if the light is not one that surrounds the scene.
+    fn new(kind: &LightKind) -> Option<Self> {
         match kind {
-            LightKind::Constant { radiance } => Self::Constant((*radiance).into()),
+            LightKind::Constant { radiance } => Some(Self::Constant((*radiance).into())),
             LightKind::EnvMap { image, scale, world_from_light } => {
-                Self::EnvMap(Box::new(EnvMap::new(image.clone(), *scale, *world_from_light)))
+                Some(Self::EnvMap(Box::new(EnvMap::new(image.clone(), *scale, *world_from_light))))
             }
+            LightKind::Point { .. }
+            | LightKind::Spot { .. }
+            | LightKind::Directional { .. }
+            | LightKind::Projector { .. } => None,
         }
     }
 

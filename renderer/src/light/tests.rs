@@ -1,5 +1,6 @@
 //! The random numbers are fixed: a test that passes once always passes.
 
+mod delta;
 mod density;
 mod gather;
 mod irradiance;
@@ -19,12 +20,12 @@ fn only(form: LightForm) -> Lights {
 }
 
 fn with_emission(form: LightForm, emission: Color, textures: &Textures) -> Lights {
-    Lights::from_shapes(vec![LightShape { shape: 3, form, emission }], &[], textures, 1.0)
+    Lights::from_shapes(vec![LightShape { shape: 3, form, emission }], &[], textures, DVec3::ZERO, 1.0)
 }
 
 fn infinite(kind: LightKind) -> Lights {
     let light = SceneLight { name: "sky".into(), kind, place: Place::default() };
-    Lights::from_shapes(Vec::new(), &[light], &NO_TEXTURES(), 1.0)
+    Lights::from_shapes(Vec::new(), &[light], &NO_TEXTURES(), DVec3::ZERO, 1.0)
 }
 
 /// Choice and point of sample `i`, from the renderer's own sets.
@@ -229,7 +230,7 @@ fn what_emits_nothing_is_never_drawn() {
     let dark = with_emission(square(1.0, 1.0), Color::Constant([0.0; 3]), &textures);
     let flat = only(triangles(&[[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [2.0, 0.0, 1.0]]]));
     let sky = infinite(LightKind::Constant { radiance: [0.0; 3] });
-    let none = Lights::from_shapes(Vec::new(), &[], &textures, 0.0);
+    let none = Lights::from_shapes(Vec::new(), &[], &textures, DVec3::ZERO, 0.0);
     for lights in [dark, flat, sky, none] {
         assert_eq!(lights.sample(Vec3::ZERO, 0.5, Vec2::splat(0.5), &textures), None);
     }

@@ -65,6 +65,7 @@ impl Batch {
         self.active.clear();
         self.active.extend(0..self.paths.len() as u32);
         self.counters.paths += self.paths.len() as u64;
+        self.counters.depth_of_field += if cx.camera.has_lens() { self.paths.len() as u64 } else { 0 };
     }
 
     fn extend(&mut self, cx: &Context) {

@@ -55,7 +55,8 @@ pub fn shade(
     let at_feature = !path.feature_done && !bsdf.near_delta();
     if cx.features && !path.feature_done {
         let normal = frame.to_render(bsdf.normal());
-        record_features(path, surface, &bsdf, wo, normal, scattering.at.material.0, features);
+        let depth = cx.camera.distance(surface.p);
+        record_features(path, surface, &bsdf, wo, normal, scattering.at.material.0, depth, features);
     }
     path.feature_done |= at_feature;
 
@@ -74,7 +75,8 @@ pub fn shade(
         if let Some(light) = scene.lights.sample(surface.p, choice, glam::Vec2::new(u, v), &scene.textures) {
             let value = bsdf.eval(wo, frame.to_local(light.wi));
             if !value.f_cos.is_zero() && light.radiance != Rgb::ZERO {
-                let weight = mis_weight(light.pdf, value.pdf) / light.pdf;
+                let partner = if light.delta { 0.0 } else { value.pdf };
+                let weight = mis_weight(light.pdf, partner) / light.pdf;
                 connection = Some(Connection {
                     ray: Ray { t_max: light.t_max, skip: light.skip, ..surface.spawn(light.wi) },
                     through: through(path, value.f_cos * weight),
@@ -171,12 +173,12 @@ fn record_features(
     wo: Vec3,
     normal: Vec3,
     material: u32,
+    depth: f32,
     features: &mut Sample,
 ) {
     if !path.met {
         path.met = true;
-        // The camera is the origin of render space.
-        features.set(Layer::Depth, [surface.p.as_dvec3().length() as f32]);
+        features.set(Layer::Depth, [depth]);
         features.set(Layer::Hit, [1.0]);
         features.ids = [surface.shape as f32, material as f32];
     } else if bsdf.near_delta() {

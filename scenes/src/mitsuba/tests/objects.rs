@@ -126,7 +126,9 @@ fn cameras_have_the_defaults_and_angles_of_mitsuba() {
     let camera =
         |inside: &str| loaded(&format!(r#"<sensor type="perspective">{inside}</sensor>"#)).cameras.remove(0);
     let plain = camera("");
-    let Projection::Perspective { fov_deg, fov_axis, principal_point_offset } = plain.projection;
+    let Projection::Perspective { fov_deg, fov_axis, principal_point_offset } = plain.projection else {
+        panic!("{:?}", plain.projection)
+    };
     // 50 mm before 36 x 24 mm: x_fov is 42.3117 for a film of 2:1, says Mitsuba 3.9.1
     assert_eq!((fov_axis, principal_point_offset), (FovAxis::Diagonal, [0.0; 2]));
     let x = 2.0 * ((0.5 * fov_deg.to_radians()).tan() * 2.0 / 5f64.sqrt()).atan().to_degrees();

@@ -19,7 +19,7 @@ fn each_stand_in_is_named_with_its_place() {
             r#"¦<shape type="serialized"/>"#,
             "shape \"serialized\": serialized is not read yet; the shape is left out",
         ),
-        (r#"¦<emitter type="point"/>"#, "emitter \"point\": point is not read yet; the light is left out"),
+        (r#"¦<emitter type="ies"/>"#, "emitter \"ies\": ies is not read yet; the light is left out"),
         (r#"¦<bsdf type="phong" id="p"/>"#, "bsdf \"p\": phong is not read yet; a diffuse bsdf stands in"),
         (
             r#"¦<bsdf type="roughcoating"><bsdf type="plastic"/></bsdf>"#,
@@ -30,8 +30,8 @@ fn each_stand_in_is_named_with_its_place() {
             "texture \"mesh_attribute\": mesh_attribute is not read yet; grey 0.5 stands in",
         ),
         (
-            r#"¦<sensor type="thinlens"><float name="aperture_radius" value="1"/></sensor>"#,
-            "sensor \"thinlens\": thinlens is not read yet; a pinhole camera stands in",
+            r#"¦<sensor type="thinlens"/>"#,
+            "sensor \"thinlens\": thinlens: the aperture has no radius; a pinhole stands in",
         ),
         (r#"¦<integrator type="sppm"/>"#, "integrator \"sppm\": sppm: rendered with path"),
         (
