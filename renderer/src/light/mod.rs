@@ -16,6 +16,8 @@ mod rectangle;
 mod shape;
 mod sphere;
 mod spot;
+mod surface;
+mod texels;
 mod triangle;
 mod triangles;
 
@@ -29,12 +31,9 @@ use crate::sampling::Distribution1d;
 use crate::texture::Textures;
 use choice::{Weigh, choose_from};
 use delta::Delta;
-use disk::Disk;
 use environment::EnvMap;
-use rectangle::Rectangle;
 pub use shape::{LightAnalytic, LightForm, LightRectangle, LightShape, LightTriangle};
-use sphere::Sphere;
-use triangles::Triangles;
+use surface::SurfaceLight;
 
 /// "No primitive": what the shadow ray of a light at infinity ignores.
 const NONE: u32 = u32::MAX;
@@ -90,18 +89,6 @@ struct Drawn {
     prim: u32,
 }
 
-struct SurfaceLight {
-    form: Form,
-    emission: Color,
-}
-
-enum Form {
-    Triangles(Triangles),
-    Rectangle(Rectangle),
-    Sphere(Sphere),
-    Disk(Disk),
-}
-
 enum Infinite {
     /// The same radiance from everywhere.
     Constant(Rgb),
@@ -140,7 +127,7 @@ impl Lights {
         }
         let surfaces: Vec<_> = shapes
             .into_iter()
-            .map(|LightShape { form, emission, .. }| SurfaceLight { form: Form::new(form), emission })
+            .map(|LightShape { form, emission, .. }| SurfaceLight::new(form, emission, textures))
             .collect();
         let infinite: Vec<_> = others.iter().filter_map(|light| Infinite::new(&light.kind)).collect();
         let deltas: Vec<_> = others.iter().filter_map(|light| Delta::new(&light.kind, origin)).collect();
@@ -259,63 +246,22 @@ fn finite(pdf: f64) -> f32 {
     pdf.max(0.0).min(f32::MAX.into()) as f32
 }
 
-impl SurfaceLight {
-    /// π · area · mean luminance.
-    fn weigh(&self, textures: &Textures) -> Weigh {
-        let area = match &self.form {
-            Form::Triangles(form) => form.area(),
-            Form::Rectangle(form) => form.area(),
-            Form::Sphere(form) => form.area(),
-            Form::Disk(form) => form.area(),
-        };
-        let (mean, dark) = match self.emission {
-            Color::Constant(color) => (luminance(color.into()).into(), color == [0.0; 3]),
-            Color::Texture(_) => (mean_luminance(self.emission, textures), false),
-        };
-        if dark || area.is_nan() || area <= 0.0 {
-            return Weigh::Never;
-        }
-        Weigh::Power(PI * area * mean)
-    }
+/// Luminance over [0, 1]², from a coarse grid: it steers the choice among lights, no more.
+fn mean_luminance(color: Color, textures: &Textures) -> f64 {
+    weighted_mean(color, textures, |_| 1.0)
 }
 
-/// Over [0, 1]², from a coarse grid: it steers the choice among lights, no more.
-fn mean_luminance(emission: Color, textures: &Textures) -> f64 {
+/// The same with a weight at each uv.
+fn weighted_mean(color: Color, textures: &Textures, weight: impl Fn(Vec2) -> f64) -> f64 {
     const N: u32 = 32;
     let at = |i: u32| (i as f32 + 0.5) / N as f32;
-    let values = (0..N * N).map(|k| luminance(textures.color(emission, Vec2::new(at(k % N), at(k / N)))));
-    values.filter(|l| l.is_finite()).map(f64::from).sum::<f64>() / f64::from(N * N)
-}
-
-impl Form {
-    fn new(form: LightForm) -> Self {
-        match form {
-            LightForm::Triangles(triangles) => Self::Triangles(Triangles::new(triangles)),
-            LightForm::Rectangle(rectangle) => Self::Rectangle(Rectangle::new(&rectangle)),
-            LightForm::Sphere(sphere) => Self::Sphere(Sphere::new(&sphere)),
-            LightForm::Disk(disk) => Self::Disk(Disk::new(&disk)),
-        }
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for uv in (0..N * N).map(|k| Vec2::new(at(k % N), at(k / N))) {
+        let w = weight(uv);
+        weights += w;
+        sum += w * texels::luminance_at(color, textures, uv);
     }
-
-    #[inline]
-    fn sample(&self, p: DVec3, choice: f64, u: DVec2) -> Option<Drawn> {
-        match self {
-            Self::Triangles(form) => form.sample(p, choice, u),
-            Self::Rectangle(form) => form.sample(p, u),
-            Self::Sphere(form) => form.sample(p, u),
-            Self::Disk(form) => form.sample(p, u),
-        }
-    }
-
-    #[inline]
-    fn pdf(&self, p: DVec3, at: &LightHit, wi: DVec3) -> f64 {
-        match self {
-            Self::Triangles(form) => form.pdf(p, at.p.as_dvec3(), at.prim),
-            Self::Rectangle(form) => form.pdf(p, at.p.as_dvec3()),
-            Self::Sphere(form) => form.pdf(p, wi),
-            Self::Disk(form) => form.pdf(p, at.p.as_dvec3()),
-        }
-    }
+    sum / weights
 }
 
 impl Infinite {

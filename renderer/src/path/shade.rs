@@ -55,8 +55,10 @@ pub fn shade(
     let at_feature = !path.feature_done && !bsdf.near_delta();
     if cx.features && !path.feature_done {
         let normal = frame.to_render(bsdf.normal());
-        let depth = cx.camera.distance(surface.p);
-        record_features(path, surface, &bsdf, wo, normal, scattering.at.material.0, depth, features);
+        if !path.met {
+            features.set(Layer::Depth, [cx.camera.distance(surface.p)]);
+        }
+        record_features(path, surface, &bsdf, wo, normal, scattering.at.material.0, features);
     }
     path.feature_done |= at_feature;
 
@@ -173,12 +175,10 @@ fn record_features(
     wo: Vec3,
     normal: Vec3,
     material: u32,
-    depth: f32,
     features: &mut Sample,
 ) {
     if !path.met {
         path.met = true;
-        features.set(Layer::Depth, [depth]);
         features.set(Layer::Hit, [1.0]);
         features.ids = [surface.shape as f32, material as f32];
     } else if bsdf.near_delta() {

@@ -1,20 +1,14 @@
 //! Lights that no ray finds, against Mitsuba 3.9.1 and against formulas. The truths are what its `sample_direction` prints.
 
 use glam::DMat4;
-use limpid_scenes::{Image, TexelFilter, Texels, Texture, TextureKind, WrapMode};
 
 use super::*;
 use crate::testing::{add, camera, diffuse, scene};
 
-/// A picture of 4 × 2 texels: red, white, white, green over blue and three white ones.
-fn picture() -> Textures {
+/// Red, white, white, green over blue and three white ones.
+fn flag() -> Textures {
     let (r, g, b, w) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3]);
-    let texels = Texels::Linear32([r, w, w, g, b, w, w, w].concat());
-    let image = std::sync::Arc::new(Image { width: 4, height: 2, texels });
-    let kind = TextureKind::Bitmap { image, filter: TexelFilter::Nearest, wrap: WrapMode::Clamp };
-    let texture =
-        Texture { name: "t".into(), kind, uv_from_surface: DMat3::IDENTITY, place: Place::default() };
-    Textures::prepare(&Scene { textures: vec![texture], ..Scene::default() })
+    picture(4, 2, |i| [r, w, w, g, b, w, w, w][i])
 }
 
 fn light(kind: LightKind, textures: &Textures, origin: DVec3) -> Lights {
@@ -86,7 +80,7 @@ fn spot_fades_linearly_in_the_angle_as_mitsubas_does() {
 
 #[test]
 fn spot_throws_its_texture() {
-    let textures = picture();
+    let textures = flag();
     let lights = light(spot(20.0, 15.0, Color::Texture(TextureId(0))), &textures, DVec3::ZERO);
     for ((x, y), truth) in [
         ((0.1, 0.1), [0.98039216, 1.9607843, 2.9411765]),
@@ -133,7 +127,7 @@ fn projector(half_size: [f64; 2], world_from_light: DMat4) -> LightKind {
 
 #[test]
 fn projector_lights_a_screen_evenly_as_mitsubas_does() {
-    let textures = picture();
+    let textures = flag();
     let x_axis = light(projector([1.0, 0.5], DMat4::IDENTITY), &textures, DVec3::ZERO);
     for (p, truth) in [
         ([0.4, 0.2, 1.0], [6.8828845; 3]),
