@@ -88,12 +88,29 @@ pub struct Integrator {
     pub rr_depth: u32,
     /// Lights and background are not seen directly by the camera.
     pub hide_emitters: bool,
+    /// What is asked for beside the colours, each once.
+    pub aovs: Vec<Aov>,
+}
+
+/// A quantity at the hit that a file asks for beside the colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aov {
+    /// Reflectance.
+    Albedo,
+    /// Distance from the camera.
+    Depth,
+    /// In world space.
+    Position,
+    /// Shading normal, in world space.
+    ShadingNormal,
+    /// Index of the shape.
+    ShapeIndex,
 }
 
 impl Default for Integrator {
     /// Mitsuba's `path`.
     fn default() -> Self {
-        Self { kind: "path".into(), max_depth: None, rr_depth: 5, hide_emitters: false }
+        Self { kind: "path".into(), max_depth: None, rr_depth: 5, hide_emitters: false, aovs: Vec::new() }
     }
 }
 

@@ -171,6 +171,7 @@ pub fn accumulate(cx: &Context, path: &Path, sample: &mut Sample) -> bool {
         }
     }
     let [diffuse, specular, emission] = parts;
+    sample.set(Layer::Alpha, [if path.present { path.weight } else { 0.0 }]);
     sample.set(Layer::Beauty, (diffuse + specular + emission).to_array());
     sample.set(Layer::Diffuse, diffuse.to_array());
     sample.set(Layer::Specular, specular.to_array());

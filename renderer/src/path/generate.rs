@@ -30,6 +30,7 @@ pub fn generate(cx: &Context, pixel: [u32; 2], index: u32, features: &mut Sample
         delta: true,
         split: false,
         straight: false,
+        present: false,
         met: false,
         feature_done: false,
         rejected: false,

@@ -32,6 +32,9 @@ pub fn shade(
     counters: &mut Counters,
 ) -> Scattered {
     let nothing = Scattered { connection: None, next: None };
+    if cx.settings.hide_emitters && path.edges == 1 && cx.scene.lights.of_shape(surface.shape).is_some() {
+        return past_hidden(path, ray, surface);
+    }
     let last = cx.settings.max_depth.is_some_and(|max| path.edges >= max);
     if last && path.feature_done {
         return nothing;
@@ -49,6 +52,7 @@ pub fn shade(
         path.edges += 1;
         return Scattered { connection: None, next: Some(surface.spawn(ray.d)) };
     }
+    path.present = true;
     let mut bsdf = Lobes::default();
     scattering.add_lobes(scene, surface, counters, &mut bsdf);
 
@@ -113,6 +117,14 @@ pub fn shade(
     path.p = surface.p;
     counters.transmission += u64::from(sample.wi.z * wo.z < 0.0);
     Scattered { connection, next: Some(surface.spawn(frame.to_render(sample.wi).normalize())) }
+}
+
+/// The camera does not see this surface, and looks past it.
+fn past_hidden(path: &mut Path, ray: &Ray, surface: &Surface) -> Scattered {
+    path.straight = true;
+    let t_max = ray.t_max - (surface.p - ray.o).dot(ray.d);
+    let next = Ray { t_max, skip: surface.prim, ..surface.spawn(ray.d) };
+    Scattered { connection: None, next: Some(next) }
 }
 
 /// What a hit is made of, before its BSDFs are asked for.

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 
 use super::{loaded, scene};
 use crate::{
-    Color, Crop, Distribution, FovAxis, LightKind, LoadOptions, MaterialKind, PixelFilter, Projection,
+    Aov, Color, Crop, Distribution, FovAxis, LightKind, LoadOptions, MaterialKind, PixelFilter, Projection,
     Scalar, Scene, ShapeKind, TexelFilter, Texels, TextureKind, WrapMode, load,
 };
 
@@ -203,7 +203,13 @@ fn integrators_keep_their_depth_whatever_they_are() {
     let (inner, notes) = integrator(
         r#"<integrator type="aov"><string name="aovs" value="dd.y:depth"/><integrator name="image" type="path"><integer name="max_depth" value="3"/></integrator></integrator>"#,
     );
-    assert_eq!((inner.kind.as_str(), inner.max_depth, notes), ("path", Some(3), 1));
+    assert_eq!((inner.kind.as_str(), inner.max_depth, notes), ("path", Some(3), 0));
+    assert_eq!(inner.aovs, [Aov::Depth]);
+    let (several, notes) = integrator(
+        r#"<integrator type="aov"><string name="aovs" value="a:albedo, nn:sh_normal,pp:position,s:shape_index, b:albedo,u:uv,x:what"/><integrator type="direct"/></integrator>"#,
+    );
+    assert_eq!(several.aovs, [Aov::Albedo, Aov::ShadingNormal, Aov::Position, Aov::ShapeIndex]);
+    assert_eq!((several.max_depth, notes), (Some(2), 1));
     assert_eq!(integrator("").0, crate::Integrator::default());
 }
 
