@@ -59,7 +59,7 @@ pub struct Called {
 /// The effects that `scene` calls for, each with the first element that does.
 pub fn effects(scene: &Scene) -> Vec<Called> {
     let lens = scene.cameras.iter().find(|camera| camera.lens.is_some());
-    let environment = scene.lights.iter().find(|light| light.kind.is_background());
+    let environment = scene.lights.iter().find(|light| light.kind.is_at_infinity());
     let mut used: Vec<MaterialId> = scene.shapes.iter().map(|shape| shape.material).collect();
     used.sort_unstable();
     used.dedup();

@@ -27,6 +27,7 @@
 //! ```
 
 mod cameras;
+mod daylight;
 mod error;
 mod export;
 mod files;

@@ -62,6 +62,15 @@ pub enum LightKind {
         /// W·m⁻² per channel, on a surface across it.
         irradiance: Rgb,
     },
+    /// A round disk at infinity of the same radiance all over.
+    Sun {
+        /// Towards its middle, unit, in world space.
+        direction: DVec3,
+        /// Half of the angle under which it is seen, in degrees, in (0, 90\].
+        half_deg: f64,
+        /// W·sr⁻¹·m⁻² per channel.
+        radiance: Rgb,
+    },
     /// A picture thrown through a pinhole, as a perspective camera takes one: its upper left corner has +x, +y.
     Projector {
         /// The pinhole stands at its origin, the picture lies towards +z.
@@ -76,13 +85,20 @@ pub enum LightKind {
 }
 
 impl LightKind {
+    /// Whether rays that leave the scene find it.
+    pub fn is_at_infinity(&self) -> bool {
+        self.is_background() || matches!(self, Self::Sun { .. })
+    }
+
     /// Whether it surrounds the scene. A file may have one that does.
     pub fn is_background(&self) -> bool {
         match self {
             Self::Constant { .. } | Self::EnvMap { .. } => true,
-            Self::Point { .. } | Self::Spot { .. } | Self::Directional { .. } | Self::Projector { .. } => {
-                false
-            }
+            Self::Sun { .. }
+            | Self::Point { .. }
+            | Self::Spot { .. }
+            | Self::Directional { .. }
+            | Self::Projector { .. } => false,
         }
     }
 }

@@ -6,6 +6,7 @@
 
 mod bsdfs;
 mod camera;
+mod daylight;
 mod document;
 mod emitters;
 mod guard;

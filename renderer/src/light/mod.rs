@@ -16,6 +16,7 @@ mod rectangle;
 mod shape;
 mod sphere;
 mod spot;
+mod sun;
 mod surface;
 mod texels;
 mod triangle;
@@ -26,13 +27,14 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use limpid_scenes::{Color, Light as SceneLight, LightKind};
 
-use crate::color::{Rgb, luminance};
+use crate::color::Rgb;
 use crate::sampling::Distribution1d;
 use crate::texture::Textures;
 use choice::{Weigh, choose_from};
 use delta::Delta;
 use environment::EnvMap;
 pub use shape::{LightAnalytic, LightForm, LightRectangle, LightShape, LightTriangle};
+use sun::Sun;
 use surface::SurfaceLight;
 
 /// "No primitive": what the shadow ray of a light at infinity ignores.
@@ -93,6 +95,7 @@ enum Infinite {
     /// The same radiance from everywhere.
     Constant(Rgb),
     EnvMap(Box<EnvMap>),
+    Sun(Sun),
 }
 
 /// All lights of a scene.
@@ -174,9 +177,7 @@ impl Lights {
             LightSample { wi, t_max, radiance, delta: false, pdf: 0.0, skip: drawn.prim }
                 .with_pdf(pmf * drawn.pdf)
         } else if let Some(light) = self.infinite.get(light - self.surfaces.len()) {
-            let wi = light.sample(u)?.as_vec3();
-            // As it is looked up where a path leaves the scene in this direction.
-            let (radiance, pdf) = light.eval(wi);
+            let (wi, radiance, pdf) = light.sample(u)?;
             LightSample { wi, t_max: f32::INFINITY, radiance, delta: false, pdf: 0.0, skip: NONE }
                 .with_pdf(pmf * pdf)
         } else {
@@ -272,6 +273,9 @@ impl Infinite {
             LightKind::EnvMap { image, scale, world_from_light } => {
                 Some(Self::EnvMap(Box::new(EnvMap::new(image.clone(), *scale, *world_from_light))))
             }
+            LightKind::Sun { direction, half_deg, radiance } => {
+                Some(Self::Sun(Sun::new(*direction, *half_deg, (*radiance).into())))
+            }
             LightKind::Point { .. }
             | LightKind::Spot { .. }
             | LightKind::Directional { .. }
@@ -279,11 +283,18 @@ impl Infinite {
         }
     }
 
+    /// A direction, what comes from there, and the density of drawing it.
     #[inline]
-    fn sample(&self, u: DVec2) -> Option<DVec3> {
+    fn sample(&self, u: DVec2) -> Option<(Vec3, Rgb, f64)> {
         match self {
             Self::Constant(_) => None, // it is never chosen
-            Self::EnvMap(light) => light.sample(u),
+            Self::EnvMap(light) => {
+                let wi = light.sample(u)?.as_vec3();
+                // As it is looked up where a path leaves the scene in this direction.
+                let (radiance, pdf) = light.eval(wi);
+                Some((wi, radiance, pdf))
+            }
+            Self::Sun(light) => Some(light.sample(u)),
         }
     }
 
@@ -292,6 +303,7 @@ impl Infinite {
         match self {
             Self::Constant(radiance) => (*radiance, 0.0),
             Self::EnvMap(light) => light.eval(wi),
+            Self::Sun(light) => light.eval(wi),
         }
     }
 
@@ -305,12 +317,16 @@ impl Infinite {
                 (_, true) => Weigh::Never,
                 (integral, false) => Weigh::Power(PI * scene_radius * scene_radius * integral),
             },
+            Self::Sun(light) => match light.integral() {
+                0.0 => Weigh::Never,
+                integral => Weigh::Power(PI * scene_radius * scene_radius * integral),
+            },
         }
     }
 
     fn bad_texels(&self) -> u64 {
         match self {
-            Self::Constant(_) => 0,
+            Self::Constant(_) | Self::Sun(_) => 0,
             Self::EnvMap(light) => light.bad_texels(),
         }
     }

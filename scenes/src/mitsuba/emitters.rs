@@ -46,7 +46,9 @@ impl Reader<'_> {
                 self.warn(id, "area: no shape holds it or refers to it; the light is left out");
                 return Ok(());
             }
-            "constant" | "envmap" if self.scene.lights.iter().any(|light| light.kind.is_background()) => {
+            "constant" | "envmap" | "sky" | "sunsky"
+                if self.scene.lights.iter().any(|light| light.kind.is_background()) =>
+            {
                 self.warn(id, format!("{kind}: a second background is left out: a scene has one"));
                 return Ok(());
             }
@@ -62,6 +64,11 @@ impl Reader<'_> {
                     None => object.transform("to_world")?.w_axis.truncate(),
                 };
                 LightKind::Point { position, intensity: self.light_color(&object, "intensity", help)? }
+            }
+            "sunsky" | "sun" | "sky" => {
+                self.daylight(&object, kind)?;
+                object.finish(&mut self.warnings);
+                return Ok(());
             }
             "spot" => self.spot(&object)?,
             "directional" => {
@@ -144,7 +151,7 @@ fn scale(object: &Object<'_>) -> Result<f32, SceneError> {
 }
 
 /// `to_world`, which must keep volumes.
-fn frame(object: &Object<'_>) -> Result<DMat4, SceneError> {
+pub(super) fn frame(object: &Object<'_>) -> Result<DMat4, SceneError> {
     let world_from_light = object.transform("to_world")?;
     if is_invertible(world_from_light) {
         Ok(world_from_light)

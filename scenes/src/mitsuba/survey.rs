@@ -115,8 +115,8 @@ pub(super) const SHAPES: Class = Class {
 
 pub(super) const EMITTERS: Class = Class {
     tag: "emitter",
-    now: &["area", "constant", "envmap", "point", "spot", "directional", "projector"],
-    later: &["sunsky", "sun", "sky", "ies"],
+    now: &["area", "constant", "envmap", "point", "spot", "directional", "projector", "sunsky", "sun", "sky"],
+    later: &["ies"],
     out: &[],
 };
 

@@ -3,6 +3,7 @@
 use glam::DMat4;
 
 use super::*;
+use crate::color::luminance;
 use crate::testing::{add, camera, diffuse, scene};
 
 /// Red, white, white, green over blue and three white ones.

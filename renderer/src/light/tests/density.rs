@@ -158,6 +158,26 @@ fn samples_of_infinite_lights_follow_their_density() {
 }
 
 #[test]
+fn samples_of_the_sun_follow_their_density() {
+    for half_deg in [0.05, 0.27, 20.0, 90.0] {
+        let direction = DVec3::new(0.36, 0.48, 0.8);
+        let lights = infinite(LightKind::Sun { direction, half_deg, radiance: [3.0; 3] });
+        assert_chi2(&format!("sun of {half_deg}"), &lights, &NO_TEXTURES(), None, Vec3::ZERO);
+        // Across the sun: E = π sin² L.
+        let samples = 1 << 12;
+        let irradiance: f64 = (0..samples)
+            .map(|i| {
+                let (choice, u) = numbers(Sampler::Sobol, i);
+                let s = lights.sample(Vec3::ZERO, choice, u, &NO_TEXTURES()).unwrap();
+                f64::from(s.radiance.x / s.pdf) * s.wi.as_dvec3().dot(direction) / f64::from(samples)
+            })
+            .sum();
+        let truth = 3.0 * PI * half_deg.to_radians().sin().powi(2);
+        assert!((irradiance / truth - 1.0).abs() < 1e-3, "{half_deg}: {irradiance} {truth}");
+    }
+}
+
+#[test]
 fn samples_and_hits_agree() {
     let textures = NO_TEXTURES();
     for (name, form, points) in cases() {

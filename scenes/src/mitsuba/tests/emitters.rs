@@ -96,3 +96,69 @@ fn lights_that_make_no_sense_are_errors_with_a_cure() {
         assert!(error.contains(help), "{emitter}: {error}");
     }
 }
+
+/// The lights of one emitter in a file of this version, and its only warning.
+fn daylight(version: &str, kind: &str, inside: &str) -> (Vec<crate::Light>, String) {
+    let text = format!(r#"<scene version="{version}"><emitter type="{kind}">{inside}</emitter></scene>"#);
+    let scene = crate::load_str(&text, "".as_ref(), &crate::LoadOptions::default()).unwrap();
+    let warnings: Vec<_> = scene.warnings.iter().filter(|w| w.element != "scene").collect();
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    (scene.lights, warnings[0].message.clone())
+}
+
+#[test]
+fn daylight_is_a_sky_and_a_sun() {
+    let (lights, warning) = daylight("3.0.0", "sunsky", "");
+    assert!(warning.contains("Preetham") && warning.contains("Mitsuba 3.9"), "{warning}");
+    let [sky, sun] = &lights[..] else { panic!("{lights:?}") };
+    let LightKind::EnvMap { world_from_light, scale: 1.0, .. } = &sky.kind else { panic!("{sky:?}") };
+    // +z is up; where Mitsuba 3.9.1 has the sun of its default place and time
+    assert!(world_from_light.transform_vector3(DVec3::Y).abs_diff_eq(DVec3::Z, 1e-12));
+    let LightKind::Sun { direction, half_deg, .. } = sun.kind else { panic!("{sun:?}") };
+    assert!(direction.abs_diff_eq(DVec3::new(0.0546, 0.6941, 0.7179), 0.006), "{direction}");
+    assert!((half_deg - 0.2679).abs() < 1e-6 && sun.name == "sunsky 1.sun", "{sun:?}");
+
+    // of 0.x: +y is up, +x east and +z south; the sun of an afternoon stands in the west
+    let (old, _) = daylight("0.6.0", "sun", r#"<float name="sunRadiusScale" value="2"/>"#);
+    let [LightKind::Sun { direction: west, half_deg, .. }] = [&old[0].kind] else { panic!("{old:?}") };
+    assert!(
+        (west.y - direction.z).abs() < 1e-9 && west.x < -0.6 && (half_deg - 0.5358).abs() < 1e-6,
+        "{west}"
+    );
+    assert!(matches!(
+        daylight("0.6.0", "sky", "").0[..],
+        [crate::Light { kind: LightKind::EnvMap { .. }, .. }]
+    ));
+}
+
+#[test]
+fn a_sun_has_the_same_irradiance_whatever_its_size() {
+    let up = r#"<vector name="sun_direction" value="0 3 4"/><float name="sky_scale" value="0"/>"#;
+    let irradiance = |size: &str| {
+        let (lights, _) = daylight("3.0.0", "sunsky", &format!("{up}{size}"));
+        match lights[0].kind {
+            LightKind::Sun { direction, half_deg, radiance } => {
+                assert!(direction.abs_diff_eq(DVec3::new(0.0, 0.6, 0.8), 1e-12), "{direction}");
+                f64::from(radiance[1]) * std::f64::consts::PI * half_deg.to_radians().sin().powi(2)
+            }
+            LightKind::Directional { direction, irradiance } => {
+                assert!(direction.abs_diff_eq(DVec3::new(0.0, -0.6, -0.8), 1e-12), "{direction}");
+                f64::from(irradiance[1])
+            }
+            ref other => panic!("{other:?}"),
+        }
+    };
+    let plain = irradiance("");
+    for size in ["<float name=\"sun_aperture\" value=\"5\"/>", "<float name=\"sun_aperture\" value=\"0\"/>"] {
+        assert!((irradiance(size) / plain - 1.0).abs() < 1e-5, "{size}");
+    }
+    assert!((irradiance(r#"<float name="sun_scale" value="0.5"/>"#) / plain - 0.5).abs() < 1e-5);
+}
+
+#[test]
+fn night_has_no_daylight() {
+    let (lights, warning) = daylight("3.0.0", "sunsky", r#"<float name="hour" value="2"/>"#);
+    assert!(lights.is_empty() && warning.contains("below the horizon"), "{warning}");
+    let wrong = r#"<emitter type="sunsky"><float name="turbidity" value="11"/></emitter>"#;
+    assert!(try_load(wrong).unwrap_err().to_string().contains("between 1 and 10"));
+}
