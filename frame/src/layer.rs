@@ -8,6 +8,9 @@ use std::collections::BTreeSet;
 pub enum Layer {
     /// Mean radiance, W·sr⁻¹·m⁻² per channel in linear Rec. 709. Its channels have no prefix.
     Beauty,
+    /// Share of what is there: 1 where a surface or the background is seen, 0 where nothing is. The beauty is
+    /// multiplied by it already. Its channel has no prefix.
+    Alpha,
     /// Radiance that left the first non-delta vertex through the diffuse part of its BSDF.
     Diffuse,
     /// Radiance that left it through the specular part.
@@ -40,8 +43,9 @@ pub enum Layer {
 
 impl Layer {
     /// All layers, in the order of the table.
-    pub const ALL: [Layer; 15] = [
+    pub const ALL: [Layer; 16] = [
         Layer::Beauty,
+        Layer::Alpha,
         Layer::Diffuse,
         Layer::Specular,
         Layer::Emission,
@@ -62,6 +66,7 @@ impl Layer {
     pub fn name(self) -> &'static str {
         match self {
             Layer::Beauty => "beauty",
+            Layer::Alpha => "alpha",
             Layer::Diffuse => "diffuse",
             Layer::Specular => "specular",
             Layer::Emission => "emission",
@@ -93,6 +98,7 @@ impl Layer {
             | Layer::Emission
             | Layer::Albedo
             | Layer::DiffuseAlbedo => &["R", "G", "B"],
+            Layer::Alpha => &["A"],
             Layer::Normal | Layer::Position => &["X", "Y", "Z"],
             Layer::Depth => &["Z"],
             Layer::Hit | Layer::Roughness | Layer::Visibility => &["V"],
@@ -110,7 +116,7 @@ impl Layer {
     /// The full channel names of one statistic of this layer: `diffuse.variance.R`, `a.R`, `depth.Z`.
     pub fn channel_names(self, statistic: Statistic) -> Vec<String> {
         let mut prefix = String::new();
-        if self != Layer::Beauty {
+        if !matches!(self, Layer::Beauty | Layer::Alpha) {
             prefix = format!("{}.", self.name());
         }
         prefix += match statistic {

@@ -6,6 +6,7 @@
 //! | layer | channels | what a pixel holds |
 //! |---|---|---|
 //! | beauty | `R` `G` `B` | mean radiance, W·sr⁻¹·m⁻² per channel, linear Rec. 709 |
+//! | alpha | `A` | share of what is there; the beauty is multiplied by it already |
 //! | diffuse, specular | `diffuse.R` … | the part that left the first non-delta vertex through the diffuse, the specular part of its BSDF |
 //! | emission | `emission.R` … | lights and background seen directly or in mirrors and glass; the three add up to the beauty |
 //! | albedo | `albedo.R` … | reflectance at the feature hit, 1 for background and pure delta |

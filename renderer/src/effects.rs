@@ -1,10 +1,12 @@
 //! Which effects a scene calls for, and what was done for each.
 
-use limpid_scenes::{LightKind, MaterialId, MaterialKind, NormalMap, Scene};
+use limpid_scenes::{MaterialId, MaterialKind, NormalMap, Scene};
 
 /// Something that costs time only in scenes that have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
+    /// A lens in front of the film.
+    DepthOfField,
     /// Light from infinity.
     Environment,
     /// Light through surfaces.
@@ -21,12 +23,20 @@ pub enum Effect {
 
 impl Effect {
     /// All effects that there are.
-    pub const ALL: [Self; 6] =
-        [Self::Environment, Self::Transmission, Self::Alpha, Self::NormalMaps, Self::BumpMaps, Self::Media];
+    pub const ALL: [Self; 7] = [
+        Self::DepthOfField,
+        Self::Environment,
+        Self::Transmission,
+        Self::Alpha,
+        Self::NormalMaps,
+        Self::BumpMaps,
+        Self::Media,
+    ];
 
     /// As `limpid info` prints it.
     pub fn name(self) -> &'static str {
         match self {
+            Self::DepthOfField => "depth of field",
             Self::Environment => "environment",
             Self::Transmission => "transmission",
             Self::Alpha => "alpha",
@@ -48,9 +58,8 @@ pub struct Called {
 
 /// The effects that `scene` calls for, each with the first element that does.
 pub fn effects(scene: &Scene) -> Vec<Called> {
-    let environment = scene.lights.iter().find(|light| match light.kind {
-        LightKind::Constant { .. } | LightKind::EnvMap { .. } => true,
-    });
+    let lens = scene.cameras.iter().find(|camera| camera.lens.is_some());
+    let environment = scene.lights.iter().find(|light| light.kind.is_at_infinity());
     let mut used: Vec<MaterialId> = scene.shapes.iter().map(|shape| shape.material).collect();
     used.sort_unstable();
     used.dedup();
@@ -66,6 +75,7 @@ pub fn effects(scene: &Scene) -> Vec<Called> {
     let transmission = material(MaterialKind::transmits);
     let because = |what: &str, name: &String| format!("{what} \"{name}\"");
     [
+        (Effect::DepthOfField, lens.map(|c| because("sensor", &c.name))),
         (Effect::Environment, environment.map(|l| because("emitter", &l.name))),
         (Effect::Transmission, transmission.map(|name| because("bsdf", name))),
         (Effect::Alpha, alpha.map(|name| because("bsdf", name))),
@@ -87,6 +97,8 @@ pub struct Counters {
     pub rays: u64,
     /// Rays towards lights.
     pub shadow_rays: u64,
+    /// Paths begun through a lens.
+    pub depth_of_field: u64,
     /// Rays that left the scene and looked up its environment.
     pub environment: u64,
     /// Directions sampled through a surface.
@@ -105,6 +117,7 @@ impl Counters {
         self.paths += other.paths;
         self.rays += other.rays;
         self.shadow_rays += other.shadow_rays;
+        self.depth_of_field += other.depth_of_field;
         self.environment += other.environment;
         self.transmission += other.transmission;
         self.alpha += other.alpha;
@@ -115,6 +128,7 @@ impl Counters {
     /// What was done for an effect.
     pub fn of(&self, effect: Effect) -> u64 {
         match effect {
+            Effect::DepthOfField => self.depth_of_field,
             Effect::Environment => self.environment,
             Effect::Transmission => self.transmission,
             Effect::Alpha => self.alpha,

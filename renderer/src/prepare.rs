@@ -5,7 +5,7 @@ use limpid_scenes::{Camera as SceneCamera, Place, Scene};
 
 use crate::accel::{Accel, Hit, NONE, Ray};
 use crate::bsdf::Lobes;
-use crate::effects::{Called, Counters, effects};
+use crate::effects::{Called, Counters, Effect, effects};
 use crate::geometry::{Geometry, Surface};
 use crate::light::Lights;
 use crate::material::{At, Materials};
@@ -79,13 +79,14 @@ impl Prepared {
         drop(triangles);
         let textures = Textures::prepare(scene);
         let materials = Materials::prepare(scene)?;
-        let lights = Lights::new(scene, &geometry, &textures, accel.radius());
+        let lights = Lights::new(scene, &geometry, &textures, origin, accel.radius());
         let has_holes = geometry.shapes.iter().any(|shape| materials.has_holes(shape.material));
-        let effects = effects(scene);
+        let mut effects = effects(scene);
+        effects.retain(|called| called.effect != Effect::DepthOfField || camera.lens.is_some());
         Ok(Self { geometry, accel, materials, textures, lights, camera, origin, has_holes, effects })
     }
 
-    /// The effects that the scene calls for.
+    /// The effects that the scene calls for, seen by this camera.
     pub fn effects(&self) -> &[Called] {
         &self.effects
     }

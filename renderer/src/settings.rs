@@ -1,7 +1,7 @@
 //! What a render is asked for.
 
-use limpid_frame::LayerRequest;
-use limpid_scenes::{Crop, Scene};
+use limpid_frame::{Layer, LayerRequest, Statistic};
+use limpid_scenes::{Aov, Camera, Crop, Scene};
 
 /// Point sets for the random decisions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +47,7 @@ pub struct Settings {
 
 impl Settings {
     /// What the scene's file says for its camera number `camera`, and the defaults for what it leaves open: the Sobol
-    /// sampler whatever the file names, the beauty alone, all cores.
+    /// sampler whatever the file names, all cores.
     ///
     /// # Panics
     ///
@@ -66,9 +66,23 @@ impl Settings {
             rr_depth: scene.integrator.rr_depth,
             clamp: None,
             hide_emitters: scene.integrator.hide_emitters,
-            layers: LayerRequest::beauty(),
+            layers: layers(scene, camera),
             threads: None,
             tile: 32,
         }
     }
+}
+
+/// The layers that a file asks for beside the beauty.
+fn layers(scene: &Scene, camera: &Camera) -> LayerRequest {
+    let layer_of = |aov: &Aov| match aov {
+        Aov::Albedo => Layer::Albedo,
+        Aov::Depth => Layer::Depth,
+        Aov::Position => Layer::Position,
+        Aov::ShadingNormal => Layer::Normal,
+        Aov::ShapeIndex => Layer::Id,
+    };
+    let alpha = camera.film.alpha.then_some(Layer::Alpha);
+    let layers = scene.integrator.aovs.iter().map(layer_of).chain(alpha);
+    layers.fold(LayerRequest::beauty(), |all, layer| all.with(layer, Statistic::Mean))
 }

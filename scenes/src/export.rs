@@ -11,7 +11,7 @@ mod xml;
 use std::collections::{HashMap, HashSet};
 use std::io;
 
-use crate::{Image, Mesh, Scene, SceneError};
+use crate::{Aov, Image, Mesh, Scene, SceneError};
 use xml::Xml;
 
 /// What could not be exported.
@@ -104,6 +104,18 @@ struct Writer<'a> {
 impl Writer<'_> {
     fn integrator(&mut self) {
         let integrator = &self.scene.integrator;
+        let aovs = integrator.aovs.iter().map(|aov| match aov {
+            Aov::Albedo => "albedo:albedo",
+            Aov::Depth => "depth:depth",
+            Aov::Position => "position:position",
+            Aov::ShadingNormal => "normal:sh_normal",
+            Aov::ShapeIndex => "id:shape_index",
+        });
+        let aovs: Vec<&str> = aovs.collect();
+        if !aovs.is_empty() {
+            self.xml.open("integrator", &[("type", "aov")]);
+            self.xml.value("string", "aovs", &aovs.join(","));
+        }
         self.xml.open("integrator", &[("type", "path")]);
         let depth = integrator.max_depth.map_or_else(|| "-1".into(), |depth| depth.to_string());
         self.xml.value("integer", "max_depth", &depth);
@@ -112,6 +124,9 @@ impl Writer<'_> {
             self.xml.value("boolean", "hide_emitters", "true");
         }
         self.xml.close("integrator");
+        if !aovs.is_empty() {
+            self.xml.close("integrator");
+        }
     }
 
     /// `name`, or `name` with a number where it is taken.

@@ -26,10 +26,13 @@
 //! # Ok::<(), limpid_scenes::SceneError>(())
 //! ```
 
+mod cameras;
+mod daylight;
 mod error;
 mod export;
 mod files;
 mod image;
+mod lights;
 mod load;
 mod materials;
 mod mesh;
@@ -40,7 +43,9 @@ mod spectrum;
 #[cfg(test)]
 mod testing;
 
+pub use cameras::*;
 pub use error::SceneError;
 pub use export::{ExportError, Exported, export_mitsuba};
+pub use lights::*;
 pub use load::{LoadOptions, load, load_str};
 pub use scene::*;

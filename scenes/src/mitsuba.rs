@@ -6,6 +6,7 @@
 
 mod bsdfs;
 mod camera;
+mod daylight;
 mod document;
 mod emitters;
 mod guard;
@@ -102,7 +103,6 @@ impl<'d> Reader<'d> {
 
     fn scene(&mut self) -> Result<(), SceneError> {
         let mut integrators = 0;
-        let mut backgrounds = 0;
         for &id in &self.document.top {
             let element = self.document.element(id);
             match element.tag.as_str() {
@@ -120,11 +120,7 @@ impl<'d> Reader<'d> {
                 "texture" => _ = self.texture(id)?,
                 "medium" => _ = self.medium(id)?,
                 "emitter" if self.referenced.contains(&id) => {} // read with its shape
-                "emitter" => {
-                    let lights = self.scene.lights.len();
-                    self.emitter(id, backgrounds > 0)?;
-                    backgrounds += self.scene.lights.len() - lights;
-                }
+                "emitter" => self.emitter(id)?,
                 // these may stand apart, to be referred to
                 "film" | "sampler" | "rfilter" | "phase" | "volume" | "spectrum" => {}
                 "ref" => self.warn(id, "a reference at the top of a scene means nothing and is passed over"),

@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
 
+use crate::{Camera, Light};
+
 /// Linear Rec. 709 colour.
 pub type Rgb = [f32; 3];
 
@@ -75,122 +77,6 @@ pub struct TextureId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MediumId(pub u32);
 
-/// A camera with its film and sample count.
-#[derive(Clone, Debug)]
-pub struct Camera {
-    /// The file's id, or `camera` and a number; what `--camera` takes.
-    pub name: String,
-    /// May hold a scale, also a negative one: handedness is the file's business.
-    pub world_from_camera: DMat4,
-    /// How film positions become directions.
-    pub projection: Projection,
-    /// Where the file states them, nothing nearer or farther along the view axis is seen.
-    pub near_clip: Option<f64>,
-    /// See `near_clip`.
-    pub far_clip: Option<f64>,
-    /// Size, crop and pixel filter.
-    pub film: Film,
-    /// What the file says about sampling.
-    pub sampler: Sampler,
-    /// Where it stands.
-    pub place: Place,
-}
-
-/// How film positions become rays.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Projection {
-    /// A pinhole.
-    Perspective {
-        /// Full angle of view along `fov_axis`, in degrees, in (0, 180).
-        fov_deg: f64,
-        /// Which side of the film the angle belongs to.
-        fov_axis: FovAxis,
-        /// Shift of the picture as fractions of its width and height.
-        principal_point_offset: [f64; 2],
-    },
-}
-
-/// The side of the film that a field of view is measured along; it refers to the whole film, never to the crop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FovAxis {
-    /// The width.
-    X,
-    /// The height.
-    Y,
-    /// The diagonal.
-    Diagonal,
-    /// The shorter of width and height.
-    Smaller,
-    /// The longer of width and height.
-    Larger,
-}
-
-/// Size of the picture in pixels, and what a pixel gathers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Film {
-    /// In pixels, at least 1.
-    pub width: u32,
-    /// In pixels, at least 1.
-    pub height: u32,
-    /// The part to be rendered; the whole film where absent.
-    pub crop: Option<Crop>,
-    /// The pixel filter.
-    pub filter: PixelFilter,
-}
-
-/// A rectangle of pixels from the film's top left corner; not empty, within the film.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Crop {
-    /// First column.
-    pub x: u32,
-    /// First row.
-    pub y: u32,
-    /// Columns.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-}
-
-/// Reconstruction filters; lengths in pixels, with Mitsuba's defaults.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PixelFilter {
-    /// Radius 0.5.
-    Box,
-    /// `max(0, 1 − |x| / radius)`.
-    Tent {
-        /// Where it ends; 1.
-        radius: f32,
-    },
-    /// `exp(−x² / 2σ²)` less its value at the radius 4σ, where it ends.
-    Gaussian {
-        /// σ; 0.5.
-        stddev: f32,
-    },
-    /// Mitchell and Netravali 1988, radius 2.
-    Mitchell {
-        /// 1/3.
-        b: f32,
-        /// 1/3.
-        c: f32,
-    },
-    /// Mitchell with B = 0, C = 1/2, radius 2.
-    CatmullRom,
-    /// `sinc(x) · sinc(x / lobes)`, radius `lobes`.
-    Lanczos {
-        /// 3.
-        lobes: f32,
-    },
-}
-
-/// The sampler that a file names and its sample count.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sampler {
-    /// The file's word: `independent`, `multijitter`, …
-    pub kind: String,
-    /// Samples per pixel.
-    pub sample_count: u32,
-}
-
 /// How light is transported.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Integrator {
@@ -202,12 +88,29 @@ pub struct Integrator {
     pub rr_depth: u32,
     /// Lights and background are not seen directly by the camera.
     pub hide_emitters: bool,
+    /// What is asked for beside the colours, each once.
+    pub aovs: Vec<Aov>,
+}
+
+/// A quantity at the hit that a file asks for beside the colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aov {
+    /// Reflectance.
+    Albedo,
+    /// Distance from the camera.
+    Depth,
+    /// In world space.
+    Position,
+    /// Shading normal, in world space.
+    ShadingNormal,
+    /// Index of the shape.
+    ShapeIndex,
 }
 
 impl Default for Integrator {
     /// Mitsuba's `path`.
     fn default() -> Self {
-        Self { kind: "path".into(), max_depth: None, rr_depth: 5, hide_emitters: false }
+        Self { kind: "path".into(), max_depth: None, rr_depth: 5, hide_emitters: false, aovs: Vec::new() }
     }
 }
 
@@ -605,36 +508,6 @@ pub enum Texels {
     Linear8(Vec<u8>),
     /// Linear values; may be non-finite, as the file has them.
     Linear32(Vec<f32>),
-}
-
-/// A light that is not the surface of a shape.
-#[derive(Clone, Debug)]
-pub struct Light {
-    /// The file's id, or its kind and a number.
-    pub name: String,
-    /// What it sends.
-    pub kind: LightKind,
-    /// Where it stands.
-    pub place: Place,
-}
-
-/// Lights without a surface.
-#[derive(Clone, Debug)]
-pub enum LightKind {
-    /// The same radiance from everywhere.
-    Constant {
-        /// W·sr⁻¹·m⁻² per channel.
-        radiance: Rgb,
-    },
-    /// A lat-long picture at infinity, +y up in light space; its centre column is seen along +z.
-    EnvMap {
-        /// Row 0 at the zenith.
-        image: Arc<Image>,
-        /// Factor on the texels.
-        scale: f32,
-        /// Only its linear part counts.
-        world_from_light: DMat4,
-    },
 }
 
 /// A participating medium. It is read, and refused by the renderer.

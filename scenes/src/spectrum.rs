@@ -102,7 +102,8 @@ pub(crate) fn metal_names() -> impl Iterator<Item = &'static str> {
     metals::METALS.iter().map(|(name, ..)| *name)
 }
 
-fn rgb_from_xyz(xyz: [f64; 3]) -> Rgb {
+/// CIE XYZ as linear Rec. 709.
+pub(crate) fn rgb_from_xyz(xyz: [f64; 3]) -> Rgb {
     RGB_FROM_XYZ.map(|row| (row[0] * xyz[0] + row[1] * xyz[1] + row[2] * xyz[2]) as f32)
 }
 

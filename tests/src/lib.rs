@@ -25,8 +25,7 @@ pub fn mean(rendered: &Rendered) -> f64 {
 /// Radiance that arrives at `eye` from the direction of `target`: a picture of one pixel, 1e-3 degrees wide.
 pub fn radiance(mut scene: Scene, eye: DVec3, target: DVec3, spp: u32, depth: u32) -> Rendered {
     let mut camera = scene::camera(eye, target, 1, 1);
-    let limpid_scenes::Projection::Perspective { fov_deg, .. } = &mut camera.projection;
-    *fov_deg = 1e-3;
+    scene::set_fov(&mut camera, 1e-3);
     scene.cameras = vec![camera];
     rendered(&scene, |s| (s.spp, s.max_depth) = (spp, Some(depth)))
 }

@@ -44,8 +44,7 @@ fn cube(s: f64, t: DVec3) -> Scene {
         [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5],
     ];
     let mut view = camera(t + DVec3::Z * (5.0 * s), t, 64, 64);
-    let limpid_scenes::Projection::Perspective { fov_deg, .. } = &mut view.projection;
-    *fov_deg = 2.0 * 0.5f64.atan().to_degrees();
+    limpid_tests::scene::set_fov(&mut view, 2.0 * 0.5f64.atan().to_degrees());
     view.world_from_camera = DMat4::from_cols(
         DVec3::NEG_X.extend(0.0),
         DVec3::Y.extend(0.0),

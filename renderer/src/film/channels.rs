@@ -3,7 +3,7 @@
 use limpid_frame::{Layer, LayerRequest, Statistic};
 
 /// Numbers of a sample.
-const COUNT: usize = 31;
+const COUNT: usize = 32;
 
 /// Where a layer's first channel stands in a sample's values; `None` for what is not summed.
 pub const fn first_channel(layer: Layer) -> Option<usize> {
@@ -21,6 +21,7 @@ pub const fn first_channel(layer: Layer) -> Option<usize> {
         Layer::Roughness => 26,
         Layer::Visibility => 27,
         Layer::Offset => 28,
+        Layer::Alpha => 31,
         Layer::Id | Layer::Samples => return None,
     })
 }
@@ -103,7 +104,7 @@ impl Plan {
                 if let Some(condition) = condition(layer) {
                     sums[condition] = true;
                 }
-                features |= first >= 12;
+                features |= first >= 12 && layer != Layer::Alpha;
             }
             if layer == Layer::Beauty || layers.contains(layer, Statistic::Variance) {
                 let condition = condition(layer).map(|c| c as u8);

@@ -1,6 +1,6 @@
 //! Finds the lights of a scene, and answers for the surfaces that rays hit.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use limpid_scenes::{Scene, ShapeKind};
 
 use super::{LightAnalytic, LightForm, LightHit, LightId, LightRectangle, LightShape, LightTriangle, Lights};
@@ -9,14 +9,21 @@ use crate::geometry::{Geometry, Surface};
 use crate::texture::Textures;
 
 impl Lights {
-    /// The lights of a scene whose shapes are `geometry`; `scene_radius` is that of a sphere around it.
-    pub fn new(scene: &Scene, geometry: &Geometry, textures: &Textures, scene_radius: f64) -> Self {
+    /// The lights of a scene whose shapes are `geometry`; `origin` is that of render space, in world space; `scene_radius`
+    /// is that of a sphere around the scene.
+    pub fn new(
+        scene: &Scene,
+        geometry: &Geometry,
+        textures: &Textures,
+        origin: DVec3,
+        scene_radius: f64,
+    ) -> Self {
         let shapes = scene.shapes.iter().enumerate().filter_map(|(index, shape)| {
             let emission = shape.emission.as_ref()?.radiance;
             let form = form(&shape.kind, shape.flip_normals, geometry, index);
             Some(LightShape { shape: index as u32, form, emission })
         });
-        Self::from_shapes(shapes.collect(), &scene.lights, textures, scene_radius)
+        Self::from_shapes(shapes.collect(), &scene.lights, textures, origin, scene_radius)
     }
 
     /// See [`radiance_at`](Self::radiance_at).

@@ -5,12 +5,20 @@
 //! wide, or a million times as wide as it.
 
 mod choice;
+mod delta;
+mod directional;
 mod disk;
 mod environment;
 mod gather;
+mod point;
+mod projector;
 mod rectangle;
 mod shape;
 mod sphere;
+mod spot;
+mod sun;
+mod surface;
+mod texels;
 mod triangle;
 mod triangles;
 
@@ -19,16 +27,15 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use limpid_scenes::{Color, Light as SceneLight, LightKind};
 
-use crate::color::{Rgb, luminance};
+use crate::color::Rgb;
 use crate::sampling::Distribution1d;
 use crate::texture::Textures;
 use choice::{Weigh, choose_from};
-use disk::Disk;
+use delta::Delta;
 use environment::EnvMap;
-use rectangle::Rectangle;
 pub use shape::{LightAnalytic, LightForm, LightRectangle, LightShape, LightTriangle};
-use sphere::Sphere;
-use triangles::Triangles;
+use sun::Sun;
+use surface::SurfaceLight;
 
 /// "No primitive": what the shadow ray of a light at infinity ignores.
 const NONE: u32 = u32::MAX;
@@ -37,7 +44,8 @@ const NONE: u32 = u32::MAX;
 /// lies nearer to the light than that does not shade it.
 const SHORTEN: f64 = 1.0 - 1e-5;
 
-/// Index of a light: those with a surface first, in the order in which they were given.
+/// Index of a light: those with a surface first, then those that surround the scene, then those that no ray finds, each in
+/// the order in which they were given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LightId(pub u32);
 
@@ -48,8 +56,10 @@ pub struct LightSample {
     pub wi: Vec3,
     /// Length of the shadow ray; infinite for a light at infinity.
     pub t_max: f32,
-    /// Emitted towards the point.
+    /// Emitted towards the point; of a `delta` light, the irradiance on a surface across `wi`.
     pub radiance: Rgb,
+    /// No ray finds the light: `pdf` is the probability of its choice, and nothing shares the sample's weight.
+    pub delta: bool,
     /// Positive and finite. Where the true density is beyond `f32`, the radiance is scaled with it.
     pub pdf: f32,
     /// The primitive that the shadow ray must not see: the light's own.
@@ -81,28 +91,18 @@ struct Drawn {
     prim: u32,
 }
 
-struct SurfaceLight {
-    form: Form,
-    emission: Color,
-}
-
-enum Form {
-    Triangles(Triangles),
-    Rectangle(Rectangle),
-    Sphere(Sphere),
-    Disk(Disk),
-}
-
 enum Infinite {
     /// The same radiance from everywhere.
     Constant(Rgb),
     EnvMap(Box<EnvMap>),
+    Sun(Sun),
 }
 
 /// All lights of a scene.
 pub struct Lights {
     surfaces: Vec<SurfaceLight>,
     infinite: Vec<Infinite>,
+    deltas: Vec<Delta>,
     /// `None` if nothing emits.
     choice: Option<Distribution1d>,
     /// By shape: its light, or [`NONE`].
@@ -111,11 +111,13 @@ pub struct Lights {
 }
 
 impl Lights {
-    /// Builds the sampling tables. `scene_radius` is that of a sphere around the scene, in scene units.
+    /// Builds the sampling tables. `others` have no surface; `origin` is that of render space, in world space;
+    /// `scene_radius` is that of a sphere around the scene.
     pub fn from_shapes(
         shapes: Vec<LightShape>,
-        infinite: &[SceneLight],
+        others: &[SceneLight],
         textures: &Textures,
+        origin: DVec3,
         scene_radius: f64,
     ) -> Self {
         let mut of_shape = Vec::new();
@@ -128,14 +130,19 @@ impl Lights {
         }
         let surfaces: Vec<_> = shapes
             .into_iter()
-            .map(|LightShape { form, emission, .. }| SurfaceLight { form: Form::new(form), emission })
+            .map(|LightShape { form, emission, .. }| SurfaceLight::new(form, emission, textures))
             .collect();
-        let infinite: Vec<_> = infinite.iter().map(|light| Infinite::new(&light.kind)).collect();
+        let infinite: Vec<_> = others.iter().filter_map(|light| Infinite::new(&light.kind)).collect();
+        let deltas: Vec<_> = others.iter().filter_map(|light| Delta::new(&light.kind, origin)).collect();
         let of_surfaces = surfaces.iter().map(|light| light.weigh(textures));
-        let weights: Vec<_> =
-            of_surfaces.chain(infinite.iter().map(|light| light.weigh(scene_radius))).collect();
+        let of_infinite = infinite.iter().map(|light| light.weigh(scene_radius));
+        let of_deltas = deltas.iter().map(|light| match light.power(scene_radius, textures) {
+            0.0 => Weigh::Never,
+            power => Weigh::Power(power),
+        });
+        let weights: Vec<_> = of_surfaces.chain(of_infinite).chain(of_deltas).collect();
         let bad_texels = infinite.iter().map(Infinite::bad_texels).sum();
-        Self { surfaces, infinite, choice: choose_from(&weights), of_shape, bad_texels }
+        Self { surfaces, infinite, deltas, choice: choose_from(&weights), of_shape, bad_texels }
     }
 
     /// The light that a shape is.
@@ -167,13 +174,18 @@ impl Lights {
             let drawn = light.form.sample(p.as_dvec3(), rest, u)?;
             let (wi, t_max) = (drawn.wi.as_vec3(), (drawn.distance * SHORTEN) as f32);
             let radiance = textures.color(light.emission, drawn.uv);
-            LightSample { wi, t_max, radiance, pdf: 0.0, skip: drawn.prim }.with_pdf(pmf * drawn.pdf)
+            LightSample { wi, t_max, radiance, delta: false, pdf: 0.0, skip: drawn.prim }
+                .with_pdf(pmf * drawn.pdf)
+        } else if let Some(light) = self.infinite.get(light - self.surfaces.len()) {
+            let (wi, radiance, pdf) = light.sample(u)?;
+            LightSample { wi, t_max: f32::INFINITY, radiance, delta: false, pdf: 0.0, skip: NONE }
+                .with_pdf(pmf * pdf)
         } else {
-            let light = &self.infinite[light - self.surfaces.len()];
-            let wi = light.sample(u)?.as_vec3();
-            // As it is looked up where a path leaves the scene in this direction.
-            let (radiance, pdf) = light.eval(wi);
-            LightSample { wi, t_max: f32::INFINITY, radiance, pdf: 0.0, skip: NONE }.with_pdf(pmf * pdf)
+            let light = &self.deltas[light - self.surfaces.len() - self.infinite.len()];
+            let arriving = light.at(p.as_dvec3(), textures)?;
+            let (wi, t_max) = (arriving.wi.as_vec3(), (arriving.distance * SHORTEN) as f32);
+            LightSample { wi, t_max, radiance: arriving.irradiance, delta: true, pdf: 0.0, skip: NONE }
+                .with_pdf(pmf)
         }
     }
 
@@ -235,80 +247,54 @@ fn finite(pdf: f64) -> f32 {
     pdf.max(0.0).min(f32::MAX.into()) as f32
 }
 
-impl SurfaceLight {
-    /// π · area · mean luminance.
-    fn weigh(&self, textures: &Textures) -> Weigh {
-        let area = match &self.form {
-            Form::Triangles(form) => form.area(),
-            Form::Rectangle(form) => form.area(),
-            Form::Sphere(form) => form.area(),
-            Form::Disk(form) => form.area(),
-        };
-        let (mean, dark) = match self.emission {
-            Color::Constant(color) => (luminance(color.into()).into(), color == [0.0; 3]),
-            Color::Texture(_) => (mean_luminance(self.emission, textures), false),
-        };
-        if dark || area.is_nan() || area <= 0.0 {
-            return Weigh::Never;
-        }
-        Weigh::Power(PI * area * mean)
-    }
+/// Luminance over [0, 1]², from a coarse grid: it steers the choice among lights, no more.
+fn mean_luminance(color: Color, textures: &Textures) -> f64 {
+    weighted_mean(color, textures, |_| 1.0)
 }
 
-/// Over [0, 1]², from a coarse grid: it steers the choice among lights, no more.
-fn mean_luminance(emission: Color, textures: &Textures) -> f64 {
+/// The same with a weight at each uv.
+fn weighted_mean(color: Color, textures: &Textures, weight: impl Fn(Vec2) -> f64) -> f64 {
     const N: u32 = 32;
     let at = |i: u32| (i as f32 + 0.5) / N as f32;
-    let values = (0..N * N).map(|k| luminance(textures.color(emission, Vec2::new(at(k % N), at(k / N)))));
-    values.filter(|l| l.is_finite()).map(f64::from).sum::<f64>() / f64::from(N * N)
-}
-
-impl Form {
-    fn new(form: LightForm) -> Self {
-        match form {
-            LightForm::Triangles(triangles) => Self::Triangles(Triangles::new(triangles)),
-            LightForm::Rectangle(rectangle) => Self::Rectangle(Rectangle::new(&rectangle)),
-            LightForm::Sphere(sphere) => Self::Sphere(Sphere::new(&sphere)),
-            LightForm::Disk(disk) => Self::Disk(Disk::new(&disk)),
-        }
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for uv in (0..N * N).map(|k| Vec2::new(at(k % N), at(k / N))) {
+        let w = weight(uv);
+        weights += w;
+        sum += w * texels::luminance_at(color, textures, uv);
     }
-
-    #[inline]
-    fn sample(&self, p: DVec3, choice: f64, u: DVec2) -> Option<Drawn> {
-        match self {
-            Self::Triangles(form) => form.sample(p, choice, u),
-            Self::Rectangle(form) => form.sample(p, u),
-            Self::Sphere(form) => form.sample(p, u),
-            Self::Disk(form) => form.sample(p, u),
-        }
-    }
-
-    #[inline]
-    fn pdf(&self, p: DVec3, at: &LightHit, wi: DVec3) -> f64 {
-        match self {
-            Self::Triangles(form) => form.pdf(p, at.p.as_dvec3(), at.prim),
-            Self::Rectangle(form) => form.pdf(p, at.p.as_dvec3()),
-            Self::Sphere(form) => form.pdf(p, wi),
-            Self::Disk(form) => form.pdf(p, at.p.as_dvec3()),
-        }
-    }
+    sum / weights
 }
 
 impl Infinite {
-    fn new(kind: &LightKind) -> Self {
+    /// `None` if the light is not one that surrounds the scene.
+    fn new(kind: &LightKind) -> Option<Self> {
         match kind {
-            LightKind::Constant { radiance } => Self::Constant((*radiance).into()),
+            LightKind::Constant { radiance } => Some(Self::Constant((*radiance).into())),
             LightKind::EnvMap { image, scale, world_from_light } => {
-                Self::EnvMap(Box::new(EnvMap::new(image.clone(), *scale, *world_from_light)))
+                Some(Self::EnvMap(Box::new(EnvMap::new(image.clone(), *scale, *world_from_light))))
             }
+            LightKind::Sun { direction, half_deg, radiance } => {
+                Some(Self::Sun(Sun::new(*direction, *half_deg, (*radiance).into())))
+            }
+            LightKind::Point { .. }
+            | LightKind::Spot { .. }
+            | LightKind::Directional { .. }
+            | LightKind::Projector { .. } => None,
         }
     }
 
+    /// A direction, what comes from there, and the density of drawing it.
     #[inline]
-    fn sample(&self, u: DVec2) -> Option<DVec3> {
+    fn sample(&self, u: DVec2) -> Option<(Vec3, Rgb, f64)> {
         match self {
             Self::Constant(_) => None, // it is never chosen
-            Self::EnvMap(light) => light.sample(u),
+            Self::EnvMap(light) => {
+                let wi = light.sample(u)?.as_vec3();
+                // As it is looked up where a path leaves the scene in this direction.
+                let (radiance, pdf) = light.eval(wi);
+                Some((wi, radiance, pdf))
+            }
+            Self::Sun(light) => Some(light.sample(u)),
         }
     }
 
@@ -317,6 +303,7 @@ impl Infinite {
         match self {
             Self::Constant(radiance) => (*radiance, 0.0),
             Self::EnvMap(light) => light.eval(wi),
+            Self::Sun(light) => light.eval(wi),
         }
     }
 
@@ -330,12 +317,16 @@ impl Infinite {
                 (_, true) => Weigh::Never,
                 (integral, false) => Weigh::Power(PI * scene_radius * scene_radius * integral),
             },
+            Self::Sun(light) => match light.integral() {
+                0.0 => Weigh::Never,
+                integral => Weigh::Power(PI * scene_radius * scene_radius * integral),
+            },
         }
     }
 
     fn bad_texels(&self) -> u64 {
         match self {
-            Self::Constant(_) => 0,
+            Self::Constant(_) | Self::Sun(_) => 0,
             Self::EnvMap(light) => light.bad_texels(),
         }
     }

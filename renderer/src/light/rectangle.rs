@@ -1,10 +1,14 @@
 //! Rectangles by solid angle where they are wide (Ureña, Fajardo and King 2013), parallelograms and distant rectangles
-//! by area.
+//! by area. Textured ones by their texels; wide ones in one half of all draws, by solid angle in the other: a bright spot
+//! far off and a dark part near by both matter.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2};
+use limpid_scenes::Color;
 
+use super::texels::{Texels, luminance_at};
 use super::triangle::WIDE;
 use super::{Drawn, LightRectangle, area_pdf};
+use crate::texture::Textures;
 
 /// Cosine between the edges up to which a parallelogram counts as a rectangle: what is left of a right angle
 /// after a rotation in `f32`.
@@ -22,6 +26,9 @@ pub struct Rectangle {
     /// Towards the side that emits; its length is the area.
     normal: DVec3,
     is_rectangle: bool,
+    texels: Option<Texels>,
+    /// Luminance.
+    mean: f64,
     prims: [u32; 2],
 }
 
@@ -37,7 +44,13 @@ struct Spherical {
 }
 
 impl Rectangle {
-    pub fn new(rectangle: &LightRectangle) -> Self {
+    pub fn new(rectangle: &LightRectangle, emission: Color, textures: &Textures) -> Self {
+        let texels = Texels::new(emission, textures);
+        let mean = match (&texels, emission) {
+            (Some(texels), _) => texels.mean(),
+            (None, Color::Constant(_)) => luminance_at(emission, textures, Vec2::ZERO),
+            (None, Color::Texture(_)) => 0.0,
+        };
         let edges = [rectangle.edge_u, rectangle.edge_v].map(|e| e.as_dvec3());
         let size = DVec2::new(edges[0].length(), edges[1].length());
         let side = if rectangle.turned { -1.0 } else { 1.0 };
@@ -47,6 +60,8 @@ impl Rectangle {
             size,
             normal: edges[0].cross(edges[1]) * side,
             is_rectangle: edges[0].dot(edges[1]).abs() <= SQUARE * size.x * size.y,
+            texels,
+            mean,
             prims: rectangle.prims,
         }
     }
@@ -55,29 +70,51 @@ impl Rectangle {
         self.normal.length()
     }
 
-    pub fn sample(&self, p: DVec3, u: DVec2) -> Option<Drawn> {
+    /// Mean luminance.
+    pub fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// `choice` is uniform in [0, 1), as `u`.
+    pub fn sample(&self, p: DVec3, choice: f64, u: DVec2) -> Option<Drawn> {
         if !self.emits_towards(p) {
             return None;
         }
         let spherical = self.spherical(p);
-        let st = spherical.as_ref().map_or(u, |s| s.draw(u));
+        let st = match (&spherical, &self.texels) {
+            (None, None) => u,
+            (Some(spherical), None) => spherical.draw(u),
+            (Some(spherical), Some(_)) if choice < 0.5 => spherical.draw(u),
+            (_, Some(texels)) => texels.sample(u),
+        };
         let q = self.corner + st.x * self.edges[0] + st.y * self.edges[1];
         let d = q - p;
+        let uv = st.as_vec2();
         Some(Drawn {
             wi: d.try_normalize()?,
             distance: d.length(),
-            pdf: spherical.map_or_else(|| area_pdf(p, q, self.normal), |s| 1.0 / s.solid),
-            uv: st.as_vec2(),
+            pdf: self.density(p, q, uv, spherical.as_ref()),
+            uv,
             prim: self.prims[usize::from(st.x < st.y)],
         })
     }
 
     /// Of the point `q`.
-    pub fn pdf(&self, p: DVec3, q: DVec3) -> f64 {
+    pub fn pdf(&self, p: DVec3, q: DVec3, uv: Vec2) -> f64 {
         if !self.emits_towards(p) {
             return 0.0;
         }
-        self.spherical(p).map_or_else(|| area_pdf(p, q, self.normal), |s| 1.0 / s.solid)
+        self.density(p, q, uv, self.spherical(p).as_ref())
+    }
+
+    fn density(&self, p: DVec3, q: DVec3, uv: Vec2, spherical: Option<&Spherical>) -> f64 {
+        let by_texel = |texels: &Texels| texels.density(uv) * area_pdf(p, q, self.normal);
+        match (spherical, &self.texels) {
+            (None, None) => area_pdf(p, q, self.normal),
+            (Some(spherical), None) => 1.0 / spherical.solid,
+            (None, Some(texels)) => by_texel(texels),
+            (Some(spherical), Some(texels)) => 0.5 * (1.0 / spherical.solid + by_texel(texels)),
+        }
     }
 
     fn emits_towards(&self, p: DVec3) -> bool {

@@ -1,5 +1,6 @@
 //! The random numbers are fixed: a test that passes once always passes.
 
+mod delta;
 mod density;
 mod gather;
 mod irradiance;
@@ -19,12 +20,30 @@ fn only(form: LightForm) -> Lights {
 }
 
 fn with_emission(form: LightForm, emission: Color, textures: &Textures) -> Lights {
-    Lights::from_shapes(vec![LightShape { shape: 3, form, emission }], &[], textures, 1.0)
+    Lights::from_shapes(vec![LightShape { shape: 3, form, emission }], &[], textures, DVec3::ZERO, 1.0)
 }
 
 fn infinite(kind: LightKind) -> Lights {
     let light = SceneLight { name: "sky".into(), kind, place: Place::default() };
-    Lights::from_shapes(Vec::new(), &[light], &NO_TEXTURES(), 1.0)
+    Lights::from_shapes(Vec::new(), &[light], &NO_TEXTURES(), DVec3::ZERO, 1.0)
+}
+
+/// One texture, of texels that `value` gives row by row, not interpolated.
+fn picture(width: u32, height: u32, value: impl Fn(usize) -> [f32; 3]) -> Textures {
+    let texels = limpid_scenes::Texels::Linear32((0..(width * height) as usize).flat_map(value).collect());
+    let image = std::sync::Arc::new(limpid_scenes::Image { width, height, texels });
+    let kind = limpid_scenes::TextureKind::Bitmap {
+        image,
+        filter: limpid_scenes::TexelFilter::Nearest,
+        wrap: limpid_scenes::WrapMode::Repeat,
+    };
+    let texture = limpid_scenes::Texture {
+        name: "t".into(),
+        kind,
+        uv_from_surface: DMat3::IDENTITY,
+        place: Place::default(),
+    };
+    Textures::prepare(&Scene { textures: vec![texture], ..Scene::default() })
 }
 
 /// Choice and point of sample `i`, from the renderer's own sets.
@@ -229,7 +248,7 @@ fn what_emits_nothing_is_never_drawn() {
     let dark = with_emission(square(1.0, 1.0), Color::Constant([0.0; 3]), &textures);
     let flat = only(triangles(&[[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [2.0, 0.0, 1.0]]]));
     let sky = infinite(LightKind::Constant { radiance: [0.0; 3] });
-    let none = Lights::from_shapes(Vec::new(), &[], &textures, 0.0);
+    let none = Lights::from_shapes(Vec::new(), &[], &textures, DVec3::ZERO, 0.0);
     for lights in [dark, flat, sky, none] {
         assert_eq!(lights.sample(Vec3::ZERO, 0.5, Vec2::splat(0.5), &textures), None);
     }
@@ -286,22 +305,9 @@ fn coordinates_that_are_no_numbers_do_no_harm() {
 
 #[test]
 fn uv_of_samples_is_that_of_hits() {
-    // A texture whose look-up is told apart by place.
-    let texels =
-        limpid_scenes::Texels::Linear32((0..64 * 64 * 3).map(|i| ((i * 7919) % 1000) as f32 + 1.0).collect());
-    let image = std::sync::Arc::new(limpid_scenes::Image { width: 64, height: 64, texels });
-    let kind = limpid_scenes::TextureKind::Bitmap {
-        image,
-        filter: limpid_scenes::TexelFilter::Nearest,
-        wrap: limpid_scenes::WrapMode::Repeat,
-    };
-    let texture = limpid_scenes::Texture {
-        name: "t".into(),
-        kind,
-        uv_from_surface: DMat3::IDENTITY,
-        place: Place::default(),
-    };
-    let textures = Textures::prepare(&Scene { textures: vec![texture], ..Scene::default() });
+    // A look-up is told apart by its place.
+    let textures =
+        picture(64, 64, |i| [3 * i, 3 * i + 1, 3 * i + 2].map(|i| ((i * 7919) % 1000) as f32 + 1.0));
     for (name, form, points) in cases() {
         let lights = with_emission(form.clone(), Color::Texture(TextureId(0)), &textures);
         let (mut same, mut all) = (0, 0);

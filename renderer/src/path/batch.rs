@@ -65,6 +65,7 @@ impl Batch {
         self.active.clear();
         self.active.extend(0..self.paths.len() as u32);
         self.counters.paths += self.paths.len() as u64;
+        self.counters.depth_of_field += if cx.camera.has_lens() { self.paths.len() as u64 } else { 0 };
     }
 
     fn extend(&mut self, cx: &Context) {
@@ -170,6 +171,7 @@ pub fn accumulate(cx: &Context, path: &Path, sample: &mut Sample) -> bool {
         }
     }
     let [diffuse, specular, emission] = parts;
+    sample.set(Layer::Alpha, [if path.present { path.weight } else { 0.0 }]);
     sample.set(Layer::Beauty, (diffuse + specular + emission).to_array());
     sample.set(Layer::Diffuse, diffuse.to_array());
     sample.set(Layer::Specular, specular.to_array());

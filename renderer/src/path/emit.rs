@@ -8,7 +8,7 @@ use crate::geometry::Surface;
 /// The path hit a surface: adds what it emits.
 #[inline]
 pub fn emit_surface(cx: &Context, path: &mut Path, ray: &Ray, surface: &Surface) {
-    if is_hidden(cx, path) {
+    if hides(cx, path.edges == 1) {
         return;
     }
     let Some(light) = cx.scene.lights.of_shape(surface.shape) else { return };
@@ -25,9 +25,10 @@ pub fn emit_surface(cx: &Context, path: &mut Path, ray: &Ray, surface: &Surface)
 #[inline]
 pub fn emit_background(cx: &Context, path: &mut Path, ray: &Ray, counters: &mut Counters) {
     let lights = &cx.scene.lights;
-    if !lights.has_infinite() || is_hidden(cx, path) {
+    if !lights.has_infinite() || hides(cx, !path.present) {
         return;
     }
+    path.present = true;
     counters.environment += 1;
     for (radiance, pdf) in lights.miss(ray.d) {
         let weight = if path.delta { 1.0 } else { mis_weight(path.pdf, pdf) };
@@ -35,8 +36,10 @@ pub fn emit_background(cx: &Context, path: &mut Path, ray: &Ray, counters: &mut 
     }
 }
 
-/// Whether lights are not seen along the current ray: a path of depth 0 has no edge.
+/// Whether a light is not shown that is seen directly, or not: with `hide_emitters` a surface is hidden from the camera's
+/// own rays, and the background from all that have met no surface but holes (as in Mitsuba 3.9). A path of depth 0 has
+/// no edge.
 #[inline]
-fn is_hidden(cx: &Context, path: &Path) -> bool {
-    (path.edges == 1 && cx.settings.hide_emitters) || cx.settings.max_depth == Some(0)
+fn hides(cx: &Context, directly: bool) -> bool {
+    (directly && cx.settings.hide_emitters) || cx.settings.max_depth == Some(0)
 }

@@ -1,6 +1,6 @@
 //! Camera rays.
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use limpid_frame::Layer;
 
 use super::{Context, Path};
@@ -16,7 +16,8 @@ pub fn generate(cx: &Context, pixel: [u32; 2], index: u32, features: &mut Sample
     let sampler = PixelSampler::new(settings.sampler, settings.seed, settings.frame, pixel, index);
     let (offset, weight) = cx.filter.sample(sampler.draw2(Dim::Pixel));
     let center = DVec2::new(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
-    let ray = cx.camera.ray(center + offset.as_dvec2());
+    let lens = if cx.camera.has_lens() { sampler.draw2(Dim::Lens) } else { Vec2::ZERO };
+    let ray = cx.camera.ray(center + offset.as_dvec2(), lens);
     let path = Path {
         sampler,
         beta: Split::specular(Rgb::ONE),
@@ -29,6 +30,7 @@ pub fn generate(cx: &Context, pixel: [u32; 2], index: u32, features: &mut Sample
         delta: true,
         split: false,
         straight: false,
+        present: false,
         met: false,
         feature_done: false,
         rejected: false,

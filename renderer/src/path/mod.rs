@@ -66,7 +66,9 @@ pub struct Path {
     pub split: bool,
     /// The last event let the path go straight on: a hole in a surface, which counts as no vertex.
     pub straight: bool,
-    /// A surface has been met that was there.
+    /// Something is seen: a surface that is there, or the background. The sample's alpha.
+    pub present: bool,
+    /// A surface has been met that was there, and is in the features.
     pub met: bool,
     /// The feature hit has been met.
     pub feature_done: bool,

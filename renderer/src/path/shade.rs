@@ -32,6 +32,9 @@ pub fn shade(
     counters: &mut Counters,
 ) -> Scattered {
     let nothing = Scattered { connection: None, next: None };
+    if cx.settings.hide_emitters && path.edges == 1 && cx.scene.lights.of_shape(surface.shape).is_some() {
+        return past_hidden(path, ray, surface);
+    }
     let last = cx.settings.max_depth.is_some_and(|max| path.edges >= max);
     if last && path.feature_done {
         return nothing;
@@ -49,12 +52,16 @@ pub fn shade(
         path.edges += 1;
         return Scattered { connection: None, next: Some(surface.spawn(ray.d)) };
     }
+    path.present = true;
     let mut bsdf = Lobes::default();
     scattering.add_lobes(scene, surface, counters, &mut bsdf);
 
     let at_feature = !path.feature_done && !bsdf.near_delta();
     if cx.features && !path.feature_done {
         let normal = frame.to_render(bsdf.normal());
+        if !path.met {
+            features.set(Layer::Depth, [cx.camera.distance(surface.p)]);
+        }
         record_features(path, surface, &bsdf, wo, normal, scattering.at.material.0, features);
     }
     path.feature_done |= at_feature;
@@ -74,7 +81,8 @@ pub fn shade(
         if let Some(light) = scene.lights.sample(surface.p, choice, glam::Vec2::new(u, v), &scene.textures) {
             let value = bsdf.eval(wo, frame.to_local(light.wi));
             if !value.f_cos.is_zero() && light.radiance != Rgb::ZERO {
-                let weight = mis_weight(light.pdf, value.pdf) / light.pdf;
+                let partner = if light.delta { 0.0 } else { value.pdf };
+                let weight = mis_weight(light.pdf, partner) / light.pdf;
                 connection = Some(Connection {
                     ray: Ray { t_max: light.t_max, skip: light.skip, ..surface.spawn(light.wi) },
                     through: through(path, value.f_cos * weight),
@@ -109,6 +117,14 @@ pub fn shade(
     path.p = surface.p;
     counters.transmission += u64::from(sample.wi.z * wo.z < 0.0);
     Scattered { connection, next: Some(surface.spawn(frame.to_render(sample.wi).normalize())) }
+}
+
+/// The camera does not see this surface, and looks past it.
+fn past_hidden(path: &mut Path, ray: &Ray, surface: &Surface) -> Scattered {
+    path.straight = true;
+    let t_max = ray.t_max - (surface.p - ray.o).dot(ray.d);
+    let next = Ray { t_max, skip: surface.prim, ..surface.spawn(ray.d) };
+    Scattered { connection: None, next: Some(next) }
 }
 
 /// What a hit is made of, before its BSDFs are asked for.
@@ -175,8 +191,6 @@ fn record_features(
 ) {
     if !path.met {
         path.met = true;
-        // The camera is the origin of render space.
-        features.set(Layer::Depth, [surface.p.as_dvec3().length() as f32]);
         features.set(Layer::Hit, [1.0]);
         features.ids = [surface.shape as f32, material as f32];
     } else if bsdf.near_delta() {

@@ -1,3 +1,5 @@
+mod alpha;
+
 use glam::{DMat4, DVec3};
 use limpid_frame::{Layer, LayerRequest};
 use limpid_scenes::{MaterialId, MaterialKind, Scalar, Scene, ShapeKind};

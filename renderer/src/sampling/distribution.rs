@@ -105,6 +105,15 @@ impl Distribution2d {
         ([column, row], [within.clamp(0.0, BELOW_ONE), y])
     }
 
+    /// Probability of the cell `[column, row]`, which must be within the grid.
+    #[inline]
+    pub fn pmf(&self, [column, row]: [usize; 2]) -> f64 {
+        let sums = &self.columns[row * self.width..][..self.width];
+        let before = if column == 0 { 0.0 } else { sums[column - 1] };
+        let total = f64::from(sums[self.width - 1]);
+        if total > 0.0 { self.rows.pmf(row) * f64::from(sums[column] - before) / total } else { 0.0 }
+    }
+
     /// Sum of the weights.
     pub fn total(&self) -> f64 {
         self.rows.total()

@@ -19,6 +19,8 @@ pub enum Dim {
     Light(u32),
     /// Whether the path goes on: one number. Of this path length.
     Roulette(u32),
+    /// Where on the lens: a pair.
+    Lens,
 }
 
 impl Dim {
@@ -30,6 +32,7 @@ impl Dim {
             Self::Bsdf(bounce) => (2, bounce),
             Self::Light(bounce) => (3, bounce),
             Self::Roulette(bounce) => (4, bounce),
+            Self::Lens => (5, 0),
         };
         kind << 32 | u64::from(bounce)
     }

@@ -20,6 +20,12 @@ fn concentric_disk(u: Vec2) -> (f32, Vec2) {
     (r, Vec2::new(cos, sin))
 }
 
+/// Point in the unit disk, uniform in area: density 1 / π. `u` is uniform in `[0, 1)²`.
+pub fn uniform_disk(u: Vec2) -> Vec2 {
+    let (r, direction) = concentric_disk(u);
+    r * direction
+}
+
 /// Direction in the hemisphere around +z with density `cos θ / π`.
 pub fn cosine_hemisphere(u: Vec2) -> Vec3 {
     let (r, direction) = concentric_disk(u);
@@ -48,10 +54,8 @@ mod tests {
     #[test]
     fn disk_points_are_uniform() {
         let inside = |p: Vec2| if p.length_squared() <= 1.0 { std::f64::consts::FRAC_1_PI } else { 0.0 };
-        let draw = |u| {
-            let (r, direction) = concentric_disk(u);
-            Some(r * (1.0 - 1e-6) * direction) // rounding can put a point of the rim 1e-7 outside
-        };
+        // rounding can put a point of the rim 1e-7 outside
+        let draw = |u| Some((1.0 - 1e-6) * uniform_disk(u));
         assert_chi2_2d(draw, inside, Vec2::NEG_ONE, Vec2::ONE);
     }
 

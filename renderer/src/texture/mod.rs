@@ -75,6 +75,30 @@ impl Textures {
         if gradient.is_finite() { gradient } else { Vec2::ZERO }
     }
 
+    /// How finely a colour may vary: in texels per unit of u and of v; 0 for a constant.
+    pub fn detail(&self, color: Color) -> DVec2 {
+        self.detail_at(color, DEEPEST)
+    }
+
+    fn detail_at(&self, color: Color, depth: u32) -> DVec2 {
+        let Color::Texture(id) = color else { return DVec2::ZERO };
+        let Some(texture) = self.textures.get(id.0 as usize).filter(|_| depth > 0) else {
+            return DVec2::ZERO;
+        };
+        let (size, inner) = match &texture.kind {
+            Kind::Bitmap(bitmap) => {
+                (DVec2::new(bitmap.image.width.into(), bitmap.image.height.into()), DVec2::ZERO)
+            }
+            Kind::Checkerboard(checkerboard) => {
+                let [a, b] = checkerboard.colors.map(|color| self.detail_at(color, depth - 1));
+                (DVec2::splat(2.0), a.max(b))
+            }
+        };
+        let m = texture.uv_from_surface;
+        let along = |axis: DVec2| (axis.abs() * size).max_element();
+        DVec2::new(along(m.x_axis.truncate()), along(m.y_axis.truncate())).max(inner)
+    }
+
     #[inline]
     fn color_at(&self, color: Color, uv: DVec2, depth: u32) -> Rgb {
         match color {

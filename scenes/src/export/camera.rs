@@ -8,22 +8,34 @@ const SAMPLERS: [&str; 5] = ["independent", "ldsampler", "multijitter", "orthogo
 
 impl Writer<'_> {
     pub(super) fn camera(&mut self, camera: &Camera) -> Result<(), ExportError> {
-        let Projection::Perspective { fov_deg, fov_axis, principal_point_offset: [x, y] } = camera.projection;
         let id = self.id(&camera.name);
-        let xml = &mut self.xml;
-        xml.open("sensor", &[("type", "perspective"), ("id", &id)]);
-        xml.float("fov", fov_deg);
-        let axis = match fov_axis {
-            FovAxis::X => "x",
-            FovAxis::Y => "y",
-            FovAxis::Diagonal => "diagonal",
-            FovAxis::Smaller => "smaller",
-            FovAxis::Larger => "larger",
+        let kind = match (&camera.projection, &camera.lens) {
+            (Projection::Orthographic, _) => "orthographic",
+            (Projection::Perspective { .. }, None) => "perspective",
+            (Projection::Perspective { .. }, Some(_)) => "thinlens",
         };
-        xml.value("string", "fov_axis", axis);
-        if [x, y] != [0.0; 2] {
-            xml.float("principal_point_offset_x", x);
-            xml.float("principal_point_offset_y", y);
+        let xml = &mut self.xml;
+        xml.open("sensor", &[("type", kind), ("id", &id)]);
+        if let Projection::Perspective { fov_deg, fov_axis, principal_point_offset: [x, y] } =
+            camera.projection
+        {
+            xml.float("fov", fov_deg);
+            let axis = match fov_axis {
+                FovAxis::X => "x",
+                FovAxis::Y => "y",
+                FovAxis::Diagonal => "diagonal",
+                FovAxis::Smaller => "smaller",
+                FovAxis::Larger => "larger",
+            };
+            xml.value("string", "fov_axis", axis);
+            if [x, y] != [0.0; 2] {
+                xml.float("principal_point_offset_x", x);
+                xml.float("principal_point_offset_y", y);
+            }
+            if let Some(lens) = camera.lens {
+                xml.float("aperture_radius", lens.aperture_radius);
+                xml.float("focus_distance", lens.focus_distance);
+            }
         }
         // Where nothing is said Mitsuba clips at 0.01 and 10,000. Planes far from these cost its camera rays their digits.
         if let Some(near) = camera.near_clip.filter(|&near| near > 0.0) {
@@ -43,6 +55,9 @@ impl Writer<'_> {
             xml.value("integer", "crop_offset_y", &crop.y.to_string());
             xml.value("integer", "crop_width", &crop.width.to_string());
             xml.value("integer", "crop_height", &crop.height.to_string());
+        }
+        if film.alpha {
+            xml.value("string", "pixel_format", "rgba");
         }
         xml.value("string", "component_format", "float32");
         let (kind, parameters): (&str, &[(&str, f32)]) = match film.filter {

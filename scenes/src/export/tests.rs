@@ -239,3 +239,46 @@ fn a_medium_is_refused_with_its_place() {
     let error = export_mitsuba(&scene, "files", &mut |_, _| Ok(())).unwrap_err().to_string();
     assert!(error.contains("medium \"fog\": participating media"), "{error}");
 }
+
+#[test]
+fn lights_and_cameras_come_back_as_they_were() {
+    let scene = loaded(
+        r#"<integrator type="aov"><string name="aovs" value="a:albedo,d:depth"/><integrator type="path"/></integrator>
+        <sensor type="thinlens"><float name="aperture_radius" value="0.25"/><float name="focus_distance" value="3"/>
+            <film type="hdrfilm"><string name="pixel_format" value="rgba"/></film></sensor>
+        <sensor type="orthographic"><transform name="to_world"><scale x="10" y="5"/></transform></sensor>
+        <emitter type="point"><rgb name="intensity" value="1 2 3"/><point name="position" value="4 5 6"/></emitter>
+        <emitter type="spot"><float name="cutoff_angle" value="35"/><float name="beam_width" value="5"/>
+            <texture type="checkerboard" name="texture"/><transform name="to_world"><translate x="1"/></transform></emitter>
+        <emitter type="directional"><vector name="direction" value="0 -1 0"/><rgb name="irradiance" value="0.5"/></emitter>
+        <emitter type="projector"><float name="fov" value="40"/><float name="scale" value="2"/>
+            <texture type="checkerboard" name="irradiance"/></emitter>
+        <emitter type="sunsky"/>"#,
+    );
+    let (again, exported) = there_and_back(&scene);
+    assert_eq!(again.integrator, scene.integrator);
+    for (a, b) in again.cameras.iter().zip(&scene.cameras) {
+        assert_eq!((&a.projection, &a.lens, a.film.alpha), (&b.projection, &b.lens, b.film.alpha));
+    }
+    assert_eq!((again.cameras.len(), again.lights.len()), (2, 6));
+    let shown = |scene: &Scene, i: usize| {
+        let text = format!("{:?}", scene.lights[i].kind);
+        without_ids(&text)
+    };
+    for i in 0..3 {
+        assert_eq!(shown(&again, i), shown(&scene, i));
+    }
+    let half = |scene: &Scene| match scene.lights[3].kind {
+        crate::LightKind::Projector { half_size: [x, y], scale, .. } => [x, y, f64::from(scale)],
+        ref other => panic!("{other:?}"),
+    };
+    assert!(half(&again).iter().zip(half(&scene)).all(|(a, b)| (a - b).abs() < 1e-12));
+    // The disk of the sun becomes its direction.
+    let (directional, sun) = (&again.lights[5].kind, &scene.lights[5].kind);
+    let crate::LightKind::Directional { direction, .. } = directional else { panic!("{directional:?}") };
+    let crate::LightKind::Sun { direction: towards, .. } = sun else { panic!("{sun:?}") };
+    assert!(
+        direction.abs_diff_eq(-*towards, 1e-9) && exported.notes[0].contains("sunsky 5.sun"),
+        "{exported:?}"
+    );
+}

@@ -47,6 +47,10 @@ impl Xml {
         self.value("point", name, &value.to_array().map(number).join(" "));
     }
 
+    pub fn vector(&mut self, name: &str, value: DVec3) {
+        self.value("vector", name, &value.to_array().map(number).join(" "));
+    }
+
     /// A transform as 16 numbers, row by row; nothing for the identity.
     pub fn transform(&mut self, name: &str, matrix: DMat4) {
         if matrix == DMat4::IDENTITY {

@@ -10,7 +10,7 @@ use super::object::Object;
 use super::survey::{FILMS, FILTERS, SAMPLERS, SENSORS, Standing};
 use super::{Reader, value};
 use crate::{
-    Camera, Crop, Film, FovAxis, PixelFilter, Place, Projection, Sampler, SceneError, Shape, ShapeKind,
+    Camera, Crop, Film, FovAxis, Lens, PixelFilter, Place, Projection, Sampler, SceneError, Shape, ShapeKind,
     Warning,
 };
 
@@ -21,9 +21,12 @@ const MAX_PIXELS: i64 = 1 << 30;
 /// Diagonal of a 36 × 24 mm negative, to which focal lengths refer.
 const DIAGONAL_MM: f64 = 43.266_615_305_567_875;
 
+/// Where Mitsuba's view ends, and where a lens focuses, if the file says nothing.
+const DEFAULT_FAR_CLIP: f64 = 1e4;
+
 /// What Mitsuba renders where the file says nothing.
 const DEFAULT_FILM: Film =
-    Film { width: 768, height: 576, crop: None, filter: PixelFilter::Gaussian { stddev: 0.5 } };
+    Film { width: 768, height: 576, crop: None, filter: PixelFilter::Gaussian { stddev: 0.5 }, alpha: false };
 
 fn default_sampler() -> Sampler {
     Sampler { kind: "independent".into(), sample_count: 4 }
@@ -33,12 +36,17 @@ impl Reader<'_> {
     pub(super) fn camera(&mut self, id: ElementId) -> Result<(), SceneError> {
         let object = Object::new(self.document, id);
         let kind = object.kind()?;
-        let projection = self.projection(&object, kind)?;
+        SENSORS.standing(kind, object.element)?;
+        let projection = match kind {
+            "orthographic" => Projection::Orthographic,
+            _ => perspective(&object)?,
+        };
         let world_from_camera = object.transform("to_world")?;
         if !is_invertible(world_from_camera) {
             return Err(object.error("to_world flattens space", "use scales other than 0"));
         }
         let (near_clip, far_clip) = (clip(&object, "near_clip")?, clip(&object, "far_clip")?);
+        let lens = if kind == "thinlens" { self.lens(&object, far_clip)? } else { None };
         object.without_effect(&["focus_distance", "shutter_open", "shutter_close", "srf"]);
 
         let film = match object.nested("film")?[..] {
@@ -59,6 +67,7 @@ impl Reader<'_> {
             name,
             world_from_camera,
             projection,
+            lens,
             near_clip,
             far_clip,
             film,
@@ -69,30 +78,17 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn projection(&mut self, object: &Object<'_>, kind: &str) -> Result<Projection, SceneError> {
-        if SENSORS.standing(kind, object.element)? == Standing::Later {
-            self.warn(object.id, format!("{kind} is not read yet; a pinhole camera stands in"));
-            object.without_effect(&["aperture_radius", "aperture_blades"]);
+    /// What `thinlens` adds to a pinhole.
+    fn lens(&mut self, object: &Object<'_>, far_clip: Option<f64>) -> Result<Option<Lens>, SceneError> {
+        object.without_effect(&["aperture_blades", "aperture_rotation"]);
+        let aperture_radius = object.float_where("aperture_radius", 0.0, "at least 0", |r| r >= 0.0)?;
+        let far = far_clip.filter(|far| *far > 0.0).unwrap_or(DEFAULT_FAR_CLIP);
+        let focus_distance = object.float_where("focus_distance", far, "above 0", |d| d > 0.0)?;
+        if aperture_radius == 0.0 {
+            self.warn(object.id, "thinlens: the aperture has no radius; a pinhole stands in");
+            return Ok(None);
         }
-        let axes = [
-            ("x", FovAxis::X),
-            ("y", FovAxis::Y),
-            ("diagonal", FovAxis::Diagonal),
-            ("smaller", FovAxis::Smaller),
-            ("larger", FovAxis::Larger),
-        ];
-        let mut fov_axis = object.choice("fov_axis", &axes)?;
-        let is_angle = |angle| angle > 0.0 && angle < 180.0;
-        let fov_deg = match object.maybe_float("fov")? {
-            Some(_) => object.float_where("fov", 0.0, "between 0 and 180 degrees", is_angle)?,
-            None => {
-                fov_axis = FovAxis::Diagonal;
-                2.0 * (DIAGONAL_MM / (2.0 * focal_length_mm(object)?)).atan().to_degrees()
-            }
-        };
-        let x = object.float("principal_point_offset_x", 0.0)?;
-        let y = object.float("principal_point_offset_y", 0.0)?;
-        Ok(Projection::Perspective { fov_deg, fov_axis, principal_point_offset: [x, y] })
+        Ok(Some(Lens { aperture_radius, focus_distance }))
     }
 
     fn film(&mut self, id: ElementId) -> Result<Film, SceneError> {
@@ -108,7 +104,6 @@ impl Reader<'_> {
         }
         object.without_effect(&[
             "file_format",
-            "pixel_format",
             "component_format",
             "filename",
             "banner",
@@ -131,8 +126,12 @@ impl Reader<'_> {
             [] => DEFAULT_FILM.filter,
             [(filter, _), ..] => self.filter(filter)?,
         };
+        // rgba, xyza, luminance_alpha, and luminanceAlpha of 0.x
+        let format =
+            object.string("pixel_format")?.map_or(String::new(), |(word, _)| word.trim().to_lowercase());
+        let alpha = matches!(format.as_str(), "rgba" | "xyza") || format.ends_with("alpha");
         object.finish(&mut self.warnings);
-        Ok(Film { width: width as u32, height: height as u32, crop, filter })
+        Ok(Film { width: width as u32, height: height as u32, crop, filter, alpha })
     }
 
     fn filter(&mut self, id: ElementId) -> Result<PixelFilter, SceneError> {
@@ -209,12 +208,41 @@ impl Reader<'_> {
                 fov_axis: FovAxis::X,
                 principal_point_offset: [0.0; 2],
             },
+            lens: None,
             near_clip: None,
             far_clip: None,
             film: DEFAULT_FILM,
             sampler: default_sampler(),
             place,
         });
+    }
+}
+
+/// The pinhole of `perspective` and `thinlens`.
+fn perspective(object: &Object<'_>) -> Result<Projection, SceneError> {
+    let (fov_deg, fov_axis) = field_of_view(object)?;
+    let x = object.float("principal_point_offset_x", 0.0)?;
+    let y = object.float("principal_point_offset_y", 0.0)?;
+    Ok(Projection::Perspective { fov_deg, fov_axis, principal_point_offset: [x, y] })
+}
+
+/// `fov` in degrees along `fov_axis`, or what the focal length makes of the diagonal.
+pub(super) fn field_of_view(object: &Object<'_>) -> Result<(f64, FovAxis), SceneError> {
+    let axes = [
+        ("x", FovAxis::X),
+        ("y", FovAxis::Y),
+        ("diagonal", FovAxis::Diagonal),
+        ("smaller", FovAxis::Smaller),
+        ("larger", FovAxis::Larger),
+    ];
+    let fov_axis = object.choice("fov_axis", &axes)?;
+    let is_angle = |angle| angle > 0.0 && angle < 180.0;
+    match object.maybe_float("fov")? {
+        Some(_) => Ok((object.float_where("fov", 0.0, "between 0 and 180 degrees", is_angle)?, fov_axis)),
+        None => {
+            let angle = 2.0 * (DIAGONAL_MM / (2.0 * focal_length_mm(object)?)).atan();
+            Ok((angle.to_degrees(), FovAxis::Diagonal))
+        }
     }
 }
 

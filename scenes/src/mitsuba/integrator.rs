@@ -1,9 +1,18 @@
 //! The `<integrator>`: its depth, whatever it is.
 
-use super::Reader;
 use super::document::ElementId;
 use super::object::Object;
-use crate::{Integrator, SceneError};
+use super::{Reader, value};
+use crate::{Aov, Integrator, SceneError};
+
+/// What of `aov`'s types there is a layer for.
+const AOVS: [(&str, Aov); 5] = [
+    ("albedo", Aov::Albedo),
+    ("depth", Aov::Depth),
+    ("position", Aov::Position),
+    ("sh_normal", Aov::ShadingNormal),
+    ("shape_index", Aov::ShapeIndex),
+];
 
 /// Integrators that hold another one, which is what counts.
 const WRAPPERS: &[&str] = &["aov", "moment", "adaptive"];
@@ -15,25 +24,56 @@ const WITHOUT_EFFECT: &[&str] = &[
     "samples_per_pass",
     "block_size",
     "timeout",
-    "aovs",
     "sampling_budget",
     "russian_roulette",
 ];
 
 impl Reader<'_> {
+    /// `name:type` pairs. The layers have names of our own, whatever the file calls them.
+    fn aovs(&mut self, object: &Object<'_>) -> Result<Vec<Aov>, SceneError> {
+        let Some((list, parameter)) = object.string("aovs")? else { return Ok(Vec::new()) };
+        let (mut aovs, mut missing) = (Vec::new(), Vec::new());
+        for item in list.split([',', ' ']).map(str::trim).filter(|item| !item.is_empty()) {
+            let kind = item.split_once(':').map_or(item, |(_, kind)| kind.trim());
+            match AOVS.iter().find(|(name, _)| *name == kind) {
+                Some((_, aov)) if aovs.contains(aov) => {}
+                Some((_, aov)) => aovs.push(*aov),
+                None if missing.len() < 8 => missing.push(value::shorten(kind)),
+                None => {}
+            }
+        }
+        if !missing.is_empty() {
+            let known: Vec<_> = AOVS.iter().map(|(name, _)| *name).collect();
+            let message = format!(
+                "no layer is made of {}; there are {}, and more with --layers",
+                missing.join(", "),
+                known.join(", ")
+            );
+            self.warn_as(parameter.id, &object.label_of(parameter), message);
+        }
+        Ok(aovs)
+    }
+
     /// Reads the integrator. One that limpid lacks is replaced by paths, with a note.
     pub(super) fn integrator(&mut self, id: ElementId) -> Result<(), SceneError> {
         let object = Object::new(self.document, id);
         let kind = object.kind()?;
         let nested = object.nested("integrator")?;
         object.without_effect(WITHOUT_EFFECT);
+        let aovs = if kind == "aov" { self.aovs(&object)? } else { Vec::new() };
         if let (true, Some(&(inner, _))) = (WRAPPERS.contains(&kind), nested.first()) {
-            self.warn(
-                id,
-                format!("{kind}: rendered with the integrator inside; layers are chosen with --layers"),
-            );
+            if kind != "aov" {
+                self.warn(id, format!("{kind}: rendered with the integrator inside"));
+            }
             object.finish(&mut self.warnings);
-            return self.nested(id, |reader| reader.integrator(inner));
+            self.nested(id, |reader| reader.integrator(inner))?;
+            let all = &mut self.scene.integrator.aovs;
+            aovs.into_iter().for_each(|aov| {
+                if !all.contains(&aov) {
+                    all.push(aov)
+                }
+            });
+            return Ok(());
         }
         let bounds = [-1, i64::from(u32::MAX)];
         let max_depth = object.integer("max_depth", bounds)?.filter(|depth| *depth >= 0);
@@ -41,6 +81,7 @@ impl Reader<'_> {
         let mut integrator = Integrator {
             kind: kind.into(),
             max_depth: max_depth.map(|depth| depth as u32),
+            aovs,
             hide_emitters: object.boolean("hide_emitters", false)?,
             ..Integrator::default()
         };
@@ -63,7 +104,7 @@ impl Reader<'_> {
             _ => {
                 // what its parameters mean is not known, so that none is "unused"
                 object.all_without_effect();
-                self.warn(id, format!("{}: rendered with path", super::value::shorten(kind)));
+                self.warn(id, format!("{}: rendered with path", value::shorten(kind)));
             }
         }
         self.scene.integrator = integrator;

@@ -110,13 +110,13 @@ pub(super) const SHAPES: Class = Class {
 
 pub(super) const EMITTERS: Class = Class {
     tag: "emitter",
-    now: &["area", "constant", "envmap"],
-    later: &["point", "spot", "directional", "projector", "sunsky", "sun", "sky", "ies"],
+    now: &["area", "constant", "envmap", "point", "spot", "directional", "projector", "sunsky", "sun", "sky"],
+    later: &["ies"],
     out: &[],
 };
 
 pub(super) const SENSORS: Class =
-    Class { tag: "sensor", now: &["perspective"], later: &["thinlens", "orthographic"], out: &[] };
+    Class { tag: "sensor", now: &["perspective", "thinlens", "orthographic"], later: &[], out: &[] };
 
 pub(super) const FILMS: Class = Class { tag: "film", now: &["hdrfilm", "ldrfilm"], later: &[], out: &[] };
 

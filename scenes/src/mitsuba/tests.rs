@@ -1,5 +1,7 @@
 //! Scenes of a few lines, and what comes of them.
 
+mod cameras;
+mod emitters;
 mod errors;
 mod hostile;
 mod language;

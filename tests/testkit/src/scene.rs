@@ -22,12 +22,19 @@ pub fn camera(origin: DVec3, target: DVec3, width: u32, height: u32) -> Camera {
             fov_axis: FovAxis::X,
             principal_point_offset: [0.0; 2],
         },
+        lens: None,
         near_clip: None,
         far_clip: None,
-        film: Film { width, height, crop: None, filter: PixelFilter::Box },
+        film: Film { width, height, crop: None, filter: PixelFilter::Box, alpha: false },
         sampler: Sampler { kind: "independent".into(), sample_count: 16 },
         place: Place::default(),
     }
+}
+
+/// Makes it a pinhole with this field of view along x.
+pub fn set_fov(camera: &mut Camera, fov_deg: f64) {
+    camera.projection =
+        Projection::Perspective { fov_deg, fov_axis: FovAxis::X, principal_point_offset: [0.0; 2] };
 }
 
 /// A scene with materials only.

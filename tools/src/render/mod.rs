@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use limpid_frame::{ErrorEstimate, Frame, Layer, LayerRequest, Statistic, estimate_relmse};
-use limpid_renderer::{Prepared, Progress, Rendered, Settings, effects, render};
+use limpid_renderer::{Prepared, Progress, Rendered, Settings, render};
 
 use crate::cli::{Common, Render};
 use crate::denoise::Denoising;
@@ -52,7 +52,7 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
         );
     }
     let header = header::of(&scene, camera, &settings, options);
-    let effects = effects(&scene);
+    let effects = prepared.effects().to_vec();
     let warnings = scene.warnings.len();
     drop(scene); // the renderer has what it needs: the memory is better spent on samples
 

@@ -82,7 +82,7 @@ pub fn of(
             .fold(LayerRequest::default(), |all, layer| all.with(layer, Statistic::Mean)),
         None => LayerRequest::default(),
     };
-    settings.layers = LayerRequest::beauty().union(&asked).union(needs);
+    settings.layers = settings.layers.union(&asked).union(needs);
     settings.threads = common.threads;
     if options.records.is_some() {
         settings.tile = record_tile(settings.tile, settings.spp);

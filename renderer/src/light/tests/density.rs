@@ -3,11 +3,10 @@
 use super::*;
 
 /// Sum of the densities and radiance of what is seen in a direction.
-fn seen(lights: &Lights, form: Option<&LightForm>, p: Vec3, wi: Vec3) -> f64 {
-    let textures = NO_TEXTURES();
+fn seen(lights: &Lights, textures: &Textures, form: Option<&LightForm>, p: Vec3, wi: Vec3) -> f64 {
     let Some(form) = form else { return lights.miss(wi).map(|(_, pdf)| f64::from(pdf)).sum() };
     let densities = intersect(form, p, wi).into_iter().map(|at| {
-        let (radiance, pdf) = lights.hit_at(LightId(0), p, &at, wi, &textures);
+        let (radiance, pdf) = lights.hit_at(LightId(0), p, &at, wi, textures);
         if radiance == Rgb::ZERO { 0.0 } else { f64::from(pdf) }
     });
     densities.sum()
@@ -25,11 +24,10 @@ const SAMPLES: u32 = 100_000;
 
 impl Cone {
     /// Around all directions that are drawn from `p`.
-    fn around(lights: &Lights, p: Vec3) -> Self {
-        let textures = NO_TEXTURES();
+    fn around(lights: &Lights, textures: &Textures, p: Vec3) -> Self {
         let samples = (0..2000).filter_map(|i| {
             let (choice, u) = numbers(Sampler::Independent, i + 500_000);
-            lights.sample(p, choice, u, &textures).map(|s| s.wi.as_dvec3())
+            lights.sample(p, choice, u, textures).map(|s| s.wi.as_dvec3())
         });
         let directions: Vec<_> = samples.collect();
         let z = directions.iter().sum::<DVec3>().normalize_or(DVec3::Z);
@@ -70,14 +68,13 @@ impl Cone {
 
 /// χ² of the samples against the density; what is drawn in vain is the rest of 1. The bound is 5 standard
 /// deviations of a χ² with this many degrees of freedom: a right density would fail for one seed in about 1e5.
-fn assert_chi2(name: &str, lights: &Lights, form: Option<&LightForm>, p: Vec3) {
-    let cone = Cone::around(lights, p);
-    let expected = cone.expected(|wi| seen(lights, form, p, wi));
+fn assert_chi2(name: &str, lights: &Lights, textures: &Textures, form: Option<&LightForm>, p: Vec3) {
+    let cone = Cone::around(lights, textures, p);
+    let expected = cone.expected(|wi| seen(lights, textures, form, p, wi));
     let mut counts = vec![0.0; expected.len() + 1];
-    let textures = NO_TEXTURES();
     for i in 0..SAMPLES {
         let (choice, u) = numbers(Sampler::Independent, i);
-        let drawn = lights.sample(p, choice, u, &textures);
+        let drawn = lights.sample(p, choice, u, textures);
         counts[drawn.map_or(expected.len(), |s| cone.cell(s.wi.as_dvec3()))] += 1.0;
     }
     let vain = 1.0 - expected.iter().sum::<f64>();
@@ -109,9 +106,39 @@ fn samples_of_surfaces_follow_their_density() {
     for (name, form, points) in cases() {
         let lights = only(form.clone());
         for p in points {
-            assert_chi2(name, &lights, Some(&form), p);
+            assert_chi2(name, &lights, &NO_TEXTURES(), Some(&form), p);
         }
     }
+}
+
+#[test]
+fn samples_of_textured_surfaces_follow_their_density() {
+    // No texel is black: where nothing is emitted, `seen` cannot tell the front from the back.
+    let textures = picture(4, 3, |i| [1.0 + ((i * 7919) % 13) as f32; 3]);
+    for (name, form, points) in cases() {
+        let lights = with_emission(form.clone(), Color::Texture(TextureId(0)), &textures);
+        for p in points {
+            assert_chi2(&format!("textured {name}"), &lights, &textures, Some(&form), p);
+        }
+    }
+}
+
+#[test]
+fn bright_triangles_are_drawn_in_proportion() {
+    // The two halves of the unit square in uv: one sees the bright column of the picture, the other the dark one.
+    let mut pair = [triangle([[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]], 20); 2];
+    pair[1].prim = 21;
+    pair[0].uvs = [Vec2::new(0.05, 0.0), Vec2::new(0.45, 0.0), Vec2::new(0.25, 1.0)];
+    pair[1].uvs = [Vec2::new(0.55, 0.0), Vec2::new(0.95, 0.0), Vec2::new(0.75, 1.0)];
+    let textures = picture(2, 1, |i| [[3.0, 1.0][i]; 3]);
+    let lights = with_emission(LightForm::Triangles(pair.to_vec()), Color::Texture(TextureId(0)), &textures);
+    let bright = (0..10_000u32).filter(|&i| {
+        let (choice, u) = numbers(Sampler::Sobol, i);
+        lights.sample(Vec3::NEG_Z, choice, u, &textures).unwrap().skip == 20
+    });
+    let share = bright.count() as f64 / 1e4;
+    // 3 : 1, and a twentieth of the mean 2 for each.
+    assert!((share - 3.1 / 4.2).abs() < 0.01, "{share}");
 }
 
 #[test]
@@ -126,7 +153,27 @@ fn samples_of_infinite_lights_follow_their_density() {
             scale: 2.0,
             world_from_light: glam::DMat4::from_mat3(linear),
         };
-        assert_chi2(&format!("{width}x{height} map"), &infinite(kind), None, Vec3::ZERO);
+        assert_chi2(&format!("{width}x{height} map"), &infinite(kind), &NO_TEXTURES(), None, Vec3::ZERO);
+    }
+}
+
+#[test]
+fn samples_of_the_sun_follow_their_density() {
+    for half_deg in [0.05, 0.27, 20.0, 90.0] {
+        let direction = DVec3::new(0.36, 0.48, 0.8);
+        let lights = infinite(LightKind::Sun { direction, half_deg, radiance: [3.0; 3] });
+        assert_chi2(&format!("sun of {half_deg}"), &lights, &NO_TEXTURES(), None, Vec3::ZERO);
+        // Across the sun: E = π sin² L.
+        let samples = 1 << 12;
+        let irradiance: f64 = (0..samples)
+            .map(|i| {
+                let (choice, u) = numbers(Sampler::Sobol, i);
+                let s = lights.sample(Vec3::ZERO, choice, u, &NO_TEXTURES()).unwrap();
+                f64::from(s.radiance.x / s.pdf) * s.wi.as_dvec3().dot(direction) / f64::from(samples)
+            })
+            .sum();
+        let truth = 3.0 * PI * half_deg.to_radians().sin().powi(2);
+        assert!((irradiance / truth - 1.0).abs() < 1e-3, "{half_deg}: {irradiance} {truth}");
     }
 }
 

@@ -183,7 +183,7 @@ fn several_lights_add_up() {
         LightKind::Constant { radiance: [7.0; 3] },
     ];
     let skies = kinds.map(|kind| SceneLight { name: "sky".into(), kind, place: Place::default() });
-    let lights = Lights::from_shapes(shapes, &skies, &textures, 3.0);
+    let lights = Lights::from_shapes(shapes, &skies, &textures, DVec3::ZERO, 3.0);
     let truth = PI * (factor(1.0) + 2.0 / 9.0 + 0.5);
     assert_irradiance(&lights, truth, 1e-2, "square, sphere and map");
     // The choice is part of the density; the constant light is never drawn.

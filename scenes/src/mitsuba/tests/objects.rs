@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 
 use super::{loaded, scene};
 use crate::{
-    Color, Crop, Distribution, FovAxis, LightKind, LoadOptions, MaterialKind, PixelFilter, Projection,
+    Aov, Color, Crop, Distribution, FovAxis, LightKind, LoadOptions, MaterialKind, PixelFilter, Projection,
     Scalar, Scene, ShapeKind, TexelFilter, Texels, TextureKind, WardVariant, WrapMode, load,
 };
 
@@ -236,7 +236,9 @@ fn cameras_have_the_defaults_and_angles_of_mitsuba() {
     let camera =
         |inside: &str| loaded(&format!(r#"<sensor type="perspective">{inside}</sensor>"#)).cameras.remove(0);
     let plain = camera("");
-    let Projection::Perspective { fov_deg, fov_axis, principal_point_offset } = plain.projection;
+    let Projection::Perspective { fov_deg, fov_axis, principal_point_offset } = plain.projection else {
+        panic!("{:?}", plain.projection)
+    };
     // 50 mm before 36 x 24 mm: x_fov is 42.3117 for a film of 2:1, says Mitsuba 3.9.1
     assert_eq!((fov_axis, principal_point_offset), (FovAxis::Diagonal, [0.0; 2]));
     let x = 2.0 * ((0.5 * fov_deg.to_radians()).tan() * 2.0 / 5f64.sqrt()).atan().to_degrees();
@@ -311,7 +313,13 @@ fn integrators_keep_their_depth_whatever_they_are() {
     let (inner, notes) = integrator(
         r#"<integrator type="aov"><string name="aovs" value="dd.y:depth"/><integrator name="image" type="path"><integer name="max_depth" value="3"/></integrator></integrator>"#,
     );
-    assert_eq!((inner.kind.as_str(), inner.max_depth, notes), ("path", Some(3), 1));
+    assert_eq!((inner.kind.as_str(), inner.max_depth, notes), ("path", Some(3), 0));
+    assert_eq!(inner.aovs, [Aov::Depth]);
+    let (several, notes) = integrator(
+        r#"<integrator type="aov"><string name="aovs" value="a:albedo, nn:sh_normal,pp:position,s:shape_index, b:albedo,u:uv,x:what"/><integrator type="direct"/></integrator>"#,
+    );
+    assert_eq!(several.aovs, [Aov::Albedo, Aov::ShadingNormal, Aov::Position, Aov::ShapeIndex]);
+    assert_eq!((several.max_depth, notes), (Some(2), 1));
     assert_eq!(integrator("").0, crate::Integrator::default());
 }
 

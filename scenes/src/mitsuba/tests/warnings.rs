@@ -19,7 +19,6 @@ fn each_stand_in_is_named_with_its_place() {
             r#"¦<shape type="serialized"/>"#,
             "shape \"serialized\": serialized is not read yet; the shape is left out",
         ),
-        (r#"¦<emitter type="point"/>"#, "emitter \"point\": point is not read yet; the light is left out"),
         (
             r#"¦<bsdf type="coating" id="p"/>"#,
             "bsdf \"p\": coating is not read yet; a diffuse bsdf stands in",
@@ -28,6 +27,7 @@ fn each_stand_in_is_named_with_its_place() {
             r#"¦<bsdf type="ward"><rgb name="specular_reflectance" value="0.7"/></bsdf>"#,
             "bsdf \"ward\": diffuse_reflectance and specular_reflectance add up to 1.2, and are scaled together to 1",
         ),
+        (r#"¦<emitter type="ies"/>"#, "emitter \"ies\": ies is not read yet; the light is left out"),
         (
             r#"¦<bsdf type="roughcoating"><bsdf type="plastic"/></bsdf>"#,
             "bsdf \"roughcoating\": roughcoating is not read yet; the bsdf inside stands in",
@@ -37,8 +37,8 @@ fn each_stand_in_is_named_with_its_place() {
             "texture \"mesh_attribute\": mesh_attribute is not read yet; grey 0.5 stands in",
         ),
         (
-            r#"¦<sensor type="thinlens"><float name="aperture_radius" value="1"/></sensor>"#,
-            "sensor \"thinlens\": thinlens is not read yet; a pinhole camera stands in",
+            r#"¦<sensor type="thinlens"/>"#,
+            "sensor \"thinlens\": thinlens: the aperture has no radius; a pinhole stands in",
         ),
         (r#"¦<integrator type="sppm"/>"#, "integrator \"sppm\": sppm: rendered with path"),
         (
