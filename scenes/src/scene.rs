@@ -149,6 +149,16 @@ pub enum ShapeKind {
         /// Positive.
         radius: f64,
     },
+    /// Open at both ends, normal outwards; u is the angle around the axis over 2π, counted in the frame that Duff et
+    /// al. (2017) put around it (from +x towards +y for an axis along +z), v runs from 0 at `p0` to 1 at `p1`.
+    Cylinder {
+        /// Centre of one end, in object space.
+        p0: DVec3,
+        /// Centre of the other, not the same.
+        p1: DVec3,
+        /// Positive.
+        radius: f64,
+    },
     /// Unit disk in z = 0, normal +z; u is the radius, v the angle from +x over 2π.
     Disk,
     /// \[−1, 1\]² in z = 0, normal +z; uv from (0, 0) at (−1, −1) to (1, 1) at (1, 1).

@@ -134,7 +134,7 @@ fn geometry(scene: &Scene) -> (usize, usize) {
             }
             ShapeKind::Rectangle => 2,
             ShapeKind::Cube => 12,
-            ShapeKind::Sphere { .. } | ShapeKind::Disk => 0,
+            ShapeKind::Sphere { .. } | ShapeKind::Cylinder { .. } | ShapeKind::Disk => 0,
         };
     }
     (triangles, instances)

@@ -1,6 +1,6 @@
-//! Spheres and disks, intersected in `f64`.
+//! Spheres, cylinders and disks, intersected in `f64`.
 //!
-//! Each is the unit sphere or unit disk under an affine map, so that an ellipsoid is no special case, and a
+//! Each is the unit sphere, cylinder or disk under an affine map, so that an ellipsoid is no special case, and a
 //! ground sphere of radius 1e7 under a teapot keeps its digits.
 
 use glam::{DVec3, Vec3};
@@ -14,11 +14,13 @@ use super::{Frame64, Hit, Ray};
 pub enum AnalyticKind {
     /// |p| = 1.
     Sphere,
+    /// x² + y² = 1, 0 ≤ z ≤ 1.
+    Cylinder,
     /// z = 0, |p| ≤ 1.
     Disk,
 }
 
-/// A sphere or a disk in render space.
+/// A sphere, cylinder or disk in render space.
 #[derive(Clone, Copy, Debug)]
 pub struct Analytic {
     /// The form in object space.
@@ -32,9 +34,13 @@ impl Analytic {
     pub fn bounds(&self) -> Bounds {
         let m = self.frame.render_from_object;
         let (x, y, z) = (m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis);
-        let z = if self.kind == AnalyticKind::Disk { DVec3::ZERO } else { z };
-        let half = (x * x + y * y + z * z).map(f64::sqrt);
-        let (min, max) = (m.translation - half, m.translation + half);
+        let round = |v: DVec3| v.map(f64::sqrt);
+        let (center, half) = match self.kind {
+            AnalyticKind::Sphere => (m.translation, round(x * x + y * y + z * z)),
+            AnalyticKind::Cylinder => (m.translation + 0.5 * z, round(x * x + y * y) + 0.5 * z.abs()),
+            AnalyticKind::Disk => (m.translation, round(x * x + y * y)),
+        };
+        let (min, max) = (center - half, center + half);
         Bounds {
             min: Vec3::from_array(min.to_array().map(round_down)),
             max: Vec3::from_array(max.to_array().map(round_up)),
@@ -48,6 +54,7 @@ impl Analytic {
         let d = self.frame.object_from_render.transform_vector3(ray.d.as_dvec3());
         match self.kind {
             AnalyticKind::Sphere => intersect_unit_sphere(o, d),
+            AnalyticKind::Cylinder => intersect_unit_cylinder(o, d),
             AnalyticKind::Disk => {
                 let t = -o.z / d.z;
                 let p = o + t * d;
@@ -66,14 +73,30 @@ fn intersect_unit_sphere(o: DVec3, d: DVec3) -> Option<f64> {
     let length = o.length();
     let c = (length - 1.0) * (length + 1.0);
     let closest = o + (b / a) * d;
-    let discriminant = 1.0 - closest.length_squared();
+    let [t0, t1] = roots(a, b, c, 1.0 - closest.length_squared())?;
+    if t0 > 0.0 { Some(t0) } else { (t1 > 0.0).then_some(t1) }
+}
+
+/// First positive root of |o + t d| = 1 in the plane z = 0 at which 0 ≤ z ≤ 1; as for the sphere.
+fn intersect_unit_cylinder(o: DVec3, d: DVec3) -> Option<f64> {
+    let (o2, d2) = (o.truncate(), d.truncate());
+    let a = d2.length_squared();
+    let b = -o2.dot(d2);
+    let length = o2.length();
+    let c = (length - 1.0) * (length + 1.0);
+    let closest = o2 + (b / a) * d2;
+    let roots = roots(a, b, c, 1.0 - closest.length_squared())?;
+    roots.into_iter().find(|&t| t > 0.0 && (0.0..=1.0).contains(&(o.z + t * d.z)))
+}
+
+/// Both roots of a t² − 2 b t + c = 0, the smaller first; `discriminant` is (b² − a c) / a.
+fn roots(a: f64, b: f64, c: f64, discriminant: f64) -> Option<[f64; 2]> {
     if discriminant < 0.0 || discriminant.is_nan() {
         return None;
     }
     let q = b + (a * discriminant).sqrt().copysign(b);
-    let (t0, t1) = if b < 0.0 { (q / a, c / q) } else { (c / q, q / a) };
-    // From inside, c < 0 and the roots have different signs; the order above holds in either case.
-    if t0 > 0.0 { Some(t0) } else { (t1 > 0.0).then_some(t1) }
+    // From inside, c < 0 and the roots have different signs; the order holds in either case.
+    Some(if b < 0.0 { [q / a, c / q] } else { [c / q, q / a] })
 }
 
 fn round_down(x: f64) -> f32 {

@@ -134,3 +134,28 @@ fn sphere_distance_keeps_its_digits_near_far_and_inside() {
         assert!((f64::from(hit[0].t) / truth - 1.0).abs() < 1e-7, "{c} {r}: {} {truth}", hit[0].t);
     }
 }
+
+#[test]
+fn cylinder_is_hit_on_its_wall_alone_whatever_the_scale() {
+    for scale in [1e-20f64, 1.0, 1e20] {
+        let m = DAffine3::from_scale(DVec3::splat(scale));
+        let frame = Frame64 { render_from_object: m, object_from_render: m.inverse() };
+        let accel = Accel::build(&[], &[Analytic { kind: AnalyticKind::Cylinder, frame }]);
+        let cast = |o: [f32; 3], d: [f32; 3]| {
+            let o = Vec3::from(o) * scale as f32;
+            let (ray, mut hit) = (Ray::new(o, Vec3::from(d).normalize()), [Hit::MISS]);
+            accel.closest(&[ray], &mut hit);
+            (hit[0].prim != NONE).then(|| f64::from(hit[0].t) / scale)
+        };
+        let near = |found: Option<f64>, t: f64| {
+            assert!(found.is_some_and(|f| (f / t - 1.0).abs() < 1e-6), "{found:?} {t}")
+        };
+        near(cast([3.0, 0.0, 0.5], [-1.0, 0.0, 0.0]), 2.0);
+        near(cast([0.5, 0.0, 0.5], [-1.0, 0.0, 0.0]), 1.5);
+        // Over the near edge onto the far wall, and through both open ends.
+        near(cast([3.0, 0.0, 1.6], [-4.0, 0.0, -1.0]), 17.0f64.sqrt());
+        assert_eq!(cast([0.5, 0.0, 3.0], [0.0, 0.0, -1.0]), None);
+        assert_eq!(cast([3.0, 0.0, 1.001], [-1.0, 0.0, 0.0]), None);
+        assert_eq!(cast([3.0, 1.001, 0.5], [-1.0, 0.0, 0.0]), None);
+    }
+}

@@ -9,7 +9,7 @@ use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
 use limpid_scenes::{MaterialId, Scene, Shape as SceneShape, ShapeKind};
 
 use crate::accel::{Analytic, AnalyticKind, Frame64};
-use primitives::{cube, rectangle};
+use primitives::{cube, cylinder, rectangle};
 pub use surface::{Frame, Surface};
 
 /// No offset: the mesh lacks that attribute.
@@ -28,7 +28,7 @@ pub struct Geometry {
     pub triangles: Vec<[u32; 3]>,
     /// The shape of each triangle.
     triangle_shapes: Vec<u32>,
-    /// Spheres and disks; their primitive ids follow those of the triangles.
+    /// Spheres, cylinders and disks; their primitive ids follow those of the triangles.
     pub analytics: Vec<Analytic>,
     /// The shape of each.
     analytic_shapes: Vec<u32>,
@@ -68,6 +68,10 @@ impl Geometry {
                 ShapeKind::Sphere { center, radius } => {
                     let ball = DMat4::from_translation(*center) * DMat4::from_scale(DVec3::splat(*radius));
                     geometry.add_analytic(shape, AnalyticKind::Sphere, render_from_object * ball);
+                }
+                ShapeKind::Cylinder { p0, p1, radius } => {
+                    let unit = render_from_object * cylinder(*p0, *p1, *radius);
+                    geometry.add_analytic(shape, AnalyticKind::Cylinder, unit);
                 }
                 ShapeKind::Disk => geometry.add_analytic(shape, AnalyticKind::Disk, render_from_object),
             }
@@ -199,7 +203,7 @@ fn triangle_count(shape: &SceneShape) -> usize {
         ShapeKind::Mesh(mesh) => mesh.triangles.len(),
         ShapeKind::Rectangle => 2,
         ShapeKind::Cube => 12,
-        ShapeKind::Sphere { .. } | ShapeKind::Disk => 0,
+        ShapeKind::Sphere { .. } | ShapeKind::Cylinder { .. } | ShapeKind::Disk => 0,
     }
 }
 
@@ -210,3 +214,6 @@ fn normal_matrix(m: DMat3) -> DMat3 {
         DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
     if m.determinant() < 0.0 { cofactor * -1.0 } else { cofactor }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,6 @@
-//! Built-in shapes as meshes.
+//! Built-in shapes as meshes, and as maps of unit shapes.
 
+use glam::{DMat4, DVec3};
 use limpid_scenes::Mesh;
 
 /// \[−1, 1\]² in z = 0, facing +z.
@@ -31,4 +32,17 @@ pub fn cube() -> Mesh {
         uvs: [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].repeat(6),
         triangles: (0..6).flat_map(face).collect(),
     }
+}
+
+/// Maps x² + y² = 1, 0 ≤ z ≤ 1 to the cylinder from `p0` to `p1`: around the axis, x and y are where Duff et al. (2017,
+/// "Building an orthonormal basis, revisited") put them, as in Mitsuba, whose textures would otherwise be turned.
+pub fn cylinder(p0: DVec3, p1: DVec3, radius: f64) -> DMat4 {
+    let axis = p1 - p0;
+    let n = axis.normalize_or(DVec3::Z);
+    let sign = 1.0f64.copysign(n.z);
+    let a = -1.0 / (sign + n.z);
+    let b = n.x * n.y * a;
+    let x = DVec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x);
+    let y = DVec3::new(b, sign + n.y * n.y * a, -n.y);
+    DMat4::from_cols((radius * x).extend(0.0), (radius * y).extend(0.0), axis.extend(0.0), p0.extend(1.0))
 }

@@ -106,6 +106,10 @@ impl Geometry {
             frame.object_from_render.transform_point3(ray.o.as_dvec3() + f64::from(hit.t) * ray.d.as_dvec3());
         let (q, n) = match analytic.kind {
             AnalyticKind::Sphere => (q.normalize_or(DVec3::Z), q.normalize_or(DVec3::Z)),
+            AnalyticKind::Cylinder => {
+                let n = DVec3::new(q.x, q.y, 0.0).normalize_or(DVec3::X);
+                (DVec3::new(n.x, n.y, q.z.clamp(0.0, 1.0)), n)
+            }
             AnalyticKind::Disk => (DVec3::new(q.x, q.y, 0.0), DVec3::Z),
         };
         let p64 = frame.render_from_object.transform_point3(q);
@@ -116,6 +120,7 @@ impl Geometry {
         let turn = if phi < 0.0 { phi / TAU + 1.0 } else { phi / TAU };
         let uv = match analytic.kind {
             AnalyticKind::Sphere => Vec2::new(turn as f32, (q.z.clamp(-1.0, 1.0).acos() / PI) as f32),
+            AnalyticKind::Cylinder => Vec2::new(turn as f32, q.z as f32),
             AnalyticKind::Disk => Vec2::new(q.x.hypot(q.y) as f32, turn as f32),
         };
         let m = frame.render_from_object;
@@ -149,6 +154,7 @@ impl Geometry {
         let outwards = DVec3::new(q.x, q.y, 0.0) / r;
         let [du, dv] = match analytic.kind {
             AnalyticKind::Sphere => [around, (outwards * q.z - DVec3::Z * r) * PI],
+            AnalyticKind::Cylinder => [around, DVec3::Z],
             AnalyticKind::Disk => [outwards, around],
         };
         let linear: DMat3 = analytic.frame.render_from_object.matrix3;

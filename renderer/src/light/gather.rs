@@ -64,6 +64,7 @@ fn form(kind: &ShapeKind, turned: bool, geometry: &Geometry, index: usize) -> Li
     };
     match kind {
         ShapeKind::Sphere { .. } => LightForm::Sphere(analytic()),
+        ShapeKind::Cylinder { .. } => LightForm::Cylinder(analytic()),
         ShapeKind::Disk => LightForm::Disk(analytic()),
         ShapeKind::Rectangle => {
             // Its triangles are (0, 0), (1, 0), (1, 1) and (1, 1), (0, 1), (0, 0) in uv.

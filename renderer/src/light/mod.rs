@@ -5,6 +5,7 @@
 //! wide, or a million times as wide as it.
 
 mod choice;
+mod cylinder;
 mod delta;
 mod directional;
 mod disk;

@@ -23,6 +23,8 @@ pub enum LightForm {
     Rectangle(LightRectangle),
     /// The unit sphere under an affine map.
     Sphere(LightAnalytic),
+    /// x² + y² = 1, 0 ≤ z ≤ 1 under an affine map.
+    Cylinder(LightAnalytic),
     /// The unit disk in z = 0 under an affine map.
     Disk(LightAnalytic),
 }
@@ -53,12 +55,12 @@ pub struct LightRectangle {
     pub prims: [u32; 2],
 }
 
-/// A sphere or a disk.
+/// A sphere, a cylinder or a disk.
 #[derive(Clone, Copy, Debug)]
 pub struct LightAnalytic {
-    /// Maps the unit sphere or the unit disk into render space. A mirrored sphere still emits outwards.
+    /// Maps the unit shape into render space. A mirrored sphere or cylinder still emits outwards.
     pub render_from_unit: DAffine3,
-    /// A sphere that emits inwards, a disk that emits on the side of its −z.
+    /// A sphere or cylinder that emits inwards, a disk that emits on the side of its −z.
     pub turned: bool,
     /// Its primitive id.
     pub prim: u32,

@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3, Vec2};
 use limpid_scenes::Color;
 
 use super::choice::Weigh;
+use super::cylinder::Cylinder;
 use super::disk::Disk;
 use super::rectangle::Rectangle;
 use super::sphere::Sphere;
@@ -24,6 +25,7 @@ pub enum Form {
     Triangles(Triangles),
     Rectangle(Rectangle),
     Sphere(Sphere),
+    Cylinder(Cylinder),
     Disk(Disk),
 }
 
@@ -35,6 +37,7 @@ impl SurfaceLight {
                 Form::Rectangle(Rectangle::new(&rectangle, emission, textures))
             }
             LightForm::Sphere(sphere) => Form::Sphere(Sphere::new(&sphere)),
+            LightForm::Cylinder(cylinder) => Form::Cylinder(Cylinder::new(&cylinder)),
             LightForm::Disk(disk) => Form::Disk(Disk::new(&disk)),
         };
         Self { form, emission }
@@ -46,6 +49,7 @@ impl SurfaceLight {
             Form::Triangles(form) => form.area(),
             Form::Rectangle(form) => form.area(),
             Form::Sphere(form) => form.area(),
+            Form::Cylinder(form) => form.area(),
             Form::Disk(form) => form.area(),
         };
         if self.emission == Color::Constant([0.0; 3]) || area.is_nan() || area <= 0.0 {
@@ -58,6 +62,7 @@ impl SurfaceLight {
             Form::Sphere(_) => {
                 weighted_mean(self.emission, textures, |uv: Vec2| (PI * f64::from(uv.y)).sin())
             }
+            Form::Cylinder(_) => weighted_mean(self.emission, textures, |_| 1.0),
             Form::Disk(_) => weighted_mean(self.emission, textures, |uv: Vec2| uv.x.into()),
         };
         Weigh::Power(PI * area * mean)
@@ -71,6 +76,7 @@ impl Form {
             Self::Triangles(form) => form.sample(p, choice, u),
             Self::Rectangle(form) => form.sample(p, choice, u),
             Self::Sphere(form) => form.sample(p, u),
+            Self::Cylinder(form) => form.sample(p, u),
             Self::Disk(form) => form.sample(p, u),
         }
     }
@@ -81,6 +87,7 @@ impl Form {
             Self::Triangles(form) => form.pdf(p, at.p.as_dvec3(), at.prim),
             Self::Rectangle(form) => form.pdf(p, at.p.as_dvec3(), at.uv),
             Self::Sphere(form) => form.pdf(p, wi),
+            Self::Cylinder(form) => form.pdf(p, at.p.as_dvec3()),
             Self::Disk(form) => form.pdf(p, at.p.as_dvec3()),
         }
     }

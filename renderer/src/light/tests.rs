@@ -72,6 +72,11 @@ fn disk(center: [f64; 3], x: [f64; 3], y: [f64; 3], turned: bool) -> LightForm {
     })
 }
 
+fn cylinder(center: [f64; 3], axes: [f64; 3], turned: bool) -> LightForm {
+    let LightForm::Sphere(map) = sphere(center, axes, turned) else { unreachable!("it is one") };
+    LightForm::Cylinder(map)
+}
+
 fn rectangle(corner: [f32; 3], edge_u: [f32; 3], edge_v: [f32; 3]) -> LightForm {
     LightForm::Rectangle(LightRectangle {
         corner: corner.into(),
@@ -128,6 +133,26 @@ fn intersect(form: &LightForm, p: Vec3, wi: Vec3) -> Vec<LightHit> {
             let mut hit = on_plane(o, d, m.translation, x, y, uv, a.prim);
             hit.ng = if a.turned { -hit.ng } else { hit.ng };
             if s * s + t * t <= 1.0 { vec![hit] } else { Vec::new() }
+        }
+        LightForm::Cylinder(a) => {
+            let inverse = a.render_from_unit.inverse();
+            let (o1, d1) = (inverse.transform_point3(o), inverse.transform_vector3(d));
+            let (o2, d2) = (o1.truncate(), d1.truncate());
+            let middle = -o2.dot(d2) / d2.length_squared();
+            let under = (1.0 - (o2 + middle * d2).length_squared()) / d2.length_squared();
+            let roots = [middle - under.sqrt(), middle + under.sqrt()].into_iter();
+            let hits = roots.filter(|t| *t > 0.0 && (0.0..=1.0).contains(&(o1.z + t * d1.z))).map(|t| {
+                let q = o1 + t * d1;
+                let ng = (inverse.matrix3.transpose() * DVec3::new(q.x, q.y, 0.0)).normalize().as_vec3();
+                LightHit {
+                    p: (o + t * d).as_vec3(),
+                    ng: if a.turned { -ng } else { ng },
+                    uv: Vec2::new(turn(q.y as f32, q.x as f32), q.z as f32),
+                    prim: a.prim,
+                }
+            });
+            // The near wall hides what lies behind it.
+            hits.take(1).collect()
         }
         LightForm::Sphere(a) => {
             let inverse = a.render_from_unit.inverse();
@@ -222,6 +247,22 @@ fn cases() -> Vec<(&'static str, LightForm, Vec<Vec3>)> {
             "ellipsoid lit from inside",
             sphere([0.0, 0.0, 2.0], [0.5, 1.0, 0.7], true),
             points(&[[0.0, 0.0, 2.0], [0.1, 0.3, 2.2]]),
+        ),
+        (
+            "cylinder",
+            cylinder([0.0, 0.0, 2.0], [0.5, 0.5, 1.5], false),
+            points(&[[0.0, 0.0, 0.0], [0.6, 1.2, 2.0], [5.0, 60.0, 7.0]]),
+        ),
+        (
+            "elliptic cylinder",
+            cylinder([0.0, 0.0, 2.0], [0.5, -1.0, 0.7], false),
+            points(&[[1.5, 1.5, 2.0], [5.0, 60.0, 7.0]]),
+        ),
+        // Inside, in front of an open end, and outside, from where a part is seen through the end.
+        (
+            "tube lit from inside",
+            cylinder([0.0, 0.0, 2.0], [0.5, 0.5, 0.7], true),
+            points(&[[0.2, 0.0, 2.3], [-0.3, 0.1, 1.0], [-1.5, 0.2, 1.2]]),
         ),
     ]
 }

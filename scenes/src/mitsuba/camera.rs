@@ -292,6 +292,7 @@ fn bounds(shapes: &[Shape]) -> (DVec3, DVec3) {
                 points.fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(p), high.max(p)))
             }),
             ShapeKind::Sphere { center, radius } => (*center - *radius, *center + *radius),
+            ShapeKind::Cylinder { p0, p1, radius } => (p0.min(*p1) - *radius, p0.max(*p1) + *radius),
             ShapeKind::Disk | ShapeKind::Rectangle => {
                 (DVec3::new(-1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 0.0))
             }

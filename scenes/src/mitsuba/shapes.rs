@@ -38,6 +38,14 @@ impl Reader<'_> {
                 let radius = object.float_where("radius", 1.0, "above 0", |r| r > 0.0)?;
                 ShapeKind::Sphere { center: object.vector("center", DVec3::ZERO)?, radius }
             }
+            "cylinder" => {
+                let (p0, p1) = (object.vector("p0", DVec3::ZERO)?, object.vector("p1", DVec3::Z)?);
+                if p0 == p1 {
+                    return Err(object.error("p0 and p1 are the same point", "give the cylinder a length"));
+                }
+                let radius = object.float_where("radius", 1.0, "above 0", |r| r > 0.0)?;
+                ShapeKind::Cylinder { p0, p1, radius }
+            }
             "disk" => ShapeKind::Disk,
             "rectangle" => ShapeKind::Rectangle,
             _ => ShapeKind::Cube,

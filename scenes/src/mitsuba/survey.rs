@@ -97,8 +97,8 @@ pub(super) const TEXTURES: Class = Class {
 
 pub(super) const SHAPES: Class = Class {
     tag: "shape",
-    now: &["obj", "ply", "rectangle", "cube", "sphere", "disk"],
-    later: &["serialized", "cylinder", "shapegroup", "instance", "merge"],
+    now: &["obj", "ply", "rectangle", "cube", "sphere", "disk", "cylinder"],
+    later: &["serialized", "shapegroup", "instance", "merge"],
     out: &[
         ("bsplinecurve", "curves"),
         ("linearcurve", "curves"),

@@ -49,6 +49,8 @@ fn samples_are_confirmed_by_rays() {
     let shapes = [
         closed(ShapeKind::Cube),
         closed(ShapeKind::Sphere { center: DVec3::new(0.0, 0.1, 0.0), radius: 0.8 }),
+        // So long that its inside is not seen through its ends.
+        closed(ShapeKind::Cylinder { p0: DVec3::NEG_Z * 5.0, p1: DVec3::Z * 5.0, radius: 0.9 }),
         closed(mesh(corners.clone(), outwards)),
         // Open ones, and one whose winding is the wrong way round: its inside is the other way.
         (ShapeKind::Rectangle, DVec3::NEG_Z),

@@ -155,6 +155,29 @@ fn disk_overhead() {
     }
 }
 
+/// Half of a cylinder of radius 1 and length `2 l` whose axis runs across the normal at the distance `h` (Howell, "A
+/// catalog of radiation heat transfer configuration factors", B-31).
+fn half_cylinder(h: f64, l: f64) -> f64 {
+    let (x, y) = ((1.0 + h).powi(2) + l * l, (1.0 - h).powi(2) + l * l);
+    let ends = (x - 2.0 * h) / (h * (x * y).sqrt()) * (x * (h - 1.0) / (y * (h + 1.0))).sqrt().atan()
+        - ((h - 1.0) / (h + 1.0)).sqrt().atan() / h;
+    ((l / (h * h - 1.0).sqrt()).atan() / h + l * ends) / PI
+}
+
+#[test]
+fn cylinder_overhead() {
+    // A very long one fills the share 1 / h.
+    assert!((2.0 * half_cylinder(2.0, 1e4) - 0.5).abs() < 1e-6);
+    for (h, half_length) in [(2.0, 1.0), (1.1, 1.0), (1.5, 3.0), (30.0, 0.5)] {
+        let place = DAffine3::from_cols(DVec3::Z, DVec3::X, 2.0 * half_length * DVec3::Y, DVec3::ZERO);
+        let center = DAffine3::from_translation(DVec3::new(0.0, -half_length, h));
+        let map = LightAnalytic { render_from_unit: center * place, turned: false, prim: 9 };
+        let truth = PI * 2.0 * half_cylinder(h, half_length);
+        let lights = lit(LightForm::Cylinder(map), 1.0 / truth);
+        assert_irradiance(&lights, 1.0, 2e-2, &format!("length {half_length} at {h}"));
+    }
+}
+
 /// The drawing by solid angle has no variance but that of the cosine, however near and wide the light.
 #[test]
 fn near_and_wide_lights_have_little_variance() {

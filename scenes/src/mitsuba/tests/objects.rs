@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
-use super::{loaded, scene};
+use super::{loaded, scene, try_load};
 use crate::{
     Aov, Color, Crop, Distribution, FovAxis, LightKind, LoadOptions, MaterialKind, PixelFilter, Projection,
     Scalar, Scene, ShapeKind, TexelFilter, Texels, TextureKind, WardVariant, WrapMode, load,
@@ -321,6 +321,23 @@ fn integrators_keep_their_depth_whatever_they_are() {
     assert_eq!(several.aovs, [Aov::Albedo, Aov::ShadingNormal, Aov::Position, Aov::ShapeIndex]);
     assert_eq!((several.max_depth, notes), (Some(2), 1));
     assert_eq!(integrator("").0, crate::Integrator::default());
+}
+
+#[test]
+fn cylinders_have_mitsuba_defaults_and_a_length() {
+    let scene = loaded(
+        r#"<shape type="cylinder"/><shape type="cylinder"><float name="radius" value="2"/>
+<point name="p0" x="1"/><point name="p1" x="1" y="3"/></shape>"#,
+    );
+    let cylinder = |i: usize| match scene.shapes[i].kind {
+        ShapeKind::Cylinder { p0, p1, radius } => (p0, p1, radius),
+        _ => unreachable!("both are cylinders"),
+    };
+    assert_eq!(cylinder(0), (DVec3::ZERO, DVec3::Z, 1.0));
+    assert_eq!(cylinder(1), (DVec3::X, DVec3::new(1.0, 3.0, 0.0), 2.0));
+    let error =
+        try_load(r#"<shape type="cylinder"><point name="p0" z="1"/></shape>"#).unwrap_err().to_string();
+    assert!(error.contains("p0 and p1 are the same point"), "{error}");
 }
 
 #[test]
