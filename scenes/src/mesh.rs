@@ -2,7 +2,9 @@
 
 pub(crate) mod obj;
 pub(crate) mod ply;
+pub(crate) mod serialized;
 
+mod attributes;
 mod normals;
 mod polygon;
 mod raw;

@@ -9,8 +9,10 @@ mod camera;
 mod daylight;
 mod document;
 mod emitters;
+mod groups;
 mod guard;
 mod integrator;
+mod meshes;
 mod nesting;
 mod object;
 mod parameters;
@@ -31,7 +33,7 @@ use crate::mesh::{LoadedMesh, MeshOptions};
 use crate::nearest::suggest;
 use crate::spectrum::Quantity;
 use crate::{
-    Color, Image, LoadOptions, MaterialId, Medium, MediumId, Place, Rgb, Scene, SceneError, Warning,
+    Color, GroupId, Image, LoadOptions, MaterialId, Medium, MediumId, Place, Rgb, Scene, SceneError, Warning,
 };
 
 /// Objects inside one another through references. Real files have about 4.
@@ -70,7 +72,10 @@ struct Reader<'d> {
     default_materials: [Option<MaterialId>; 2],
     textures: HashMap<ElementId, Color>,
     media: HashMap<ElementId, MediumId>,
-    meshes: HashMap<(PathBuf, MeshOptions), LoadedMesh>,
+    meshes: HashMap<(PathBuf, MeshOptions, u32), LoadedMesh>,
+    /// Files of several meshes, each of which is read from the same bytes.
+    mesh_files: HashMap<PathBuf, Arc<[u8]>>,
+    groups: HashMap<ElementId, GroupId>,
     images: HashMap<(PathBuf, bool), Arc<Image>>,
     spectra: HashMap<(PathBuf, Quantity), Rgb>,
     /// Objects that are being read: one that comes up again contains itself.
@@ -94,6 +99,8 @@ impl<'d> Reader<'d> {
             textures: HashMap::new(),
             media: HashMap::new(),
             meshes: HashMap::new(),
+            mesh_files: HashMap::new(),
+            groups: HashMap::new(),
             images: HashMap::new(),
             spectra: HashMap::new(),
             open: HashSet::new(),

@@ -40,6 +40,8 @@ pub struct Scene {
     pub integrator: Integrator,
     /// In the order of the file: a shape's index is its `id.object`.
     pub shapes: Vec<Shape>,
+    /// Shapes that are seen where an instance shows them; indexed by [`GroupId`].
+    pub groups: Vec<Group>,
     /// Indexed by [`MaterialId`], which is also `id.material`.
     pub materials: Vec<Material>,
     /// Indexed by [`TextureId`].
@@ -72,6 +74,10 @@ pub struct MaterialId(pub u32);
 /// Index into [`Scene::textures`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TextureId(pub u32);
+
+/// Index into [`Scene::groups`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct GroupId(pub u32);
 
 /// Index into [`Scene::media`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -137,6 +143,17 @@ pub struct Shape {
     pub place: Place,
 }
 
+/// Shapes that instances show, at the cost of a transform each.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// The file's id, or its kind and a number.
+    pub name: String,
+    /// In a space of their own, which is the object space of the instances. None of them emits or is an instance.
+    pub shapes: Vec<Shape>,
+    /// Where it stands.
+    pub place: Place,
+}
+
 /// The form of a shape in object space.
 #[derive(Clone, Debug)]
 pub enum ShapeKind {
@@ -158,6 +175,11 @@ pub enum ShapeKind {
         p1: DVec3,
         /// Positive.
         radius: f64,
+    },
+    /// The shapes of a group, with their materials and normals; the instance's own count for nothing.
+    Instance {
+        /// What it shows.
+        group: GroupId,
     },
     /// Unit disk in z = 0, normal +z; u is the radius, v the angle from +x over 2π.
     Disk,
@@ -188,6 +210,30 @@ pub struct Mesh {
     pub uvs: Vec<[f32; 2]>,
     /// Counter-clockwise seen from the side of the normal.
     pub triangles: Vec<[u32; 3]>,
+    /// What textures of the kind [`MeshAttribute`](TextureKind::MeshAttribute) look up.
+    pub attributes: Vec<MeshAttribute>,
+}
+
+/// Values that a mesh carries beside its form, such as vertex colours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshAttribute {
+    /// With the prefix `vertex_` or `face_`.
+    pub name: String,
+    /// What has a value.
+    pub domain: AttributeDomain,
+    /// Numbers of a value: 1 or 3.
+    pub channels: u32,
+    /// Finite; `channels` for each vertex or triangle, in their order.
+    pub values: Vec<f32>,
+}
+
+/// What the values of a [`MeshAttribute`] belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AttributeDomain {
+    /// Each vertex has one; they are interpolated over a triangle.
+    Vertex,
+    /// Each triangle has one.
+    Face,
 }
 
 /// Emitted radiance of a surface.
@@ -475,6 +521,20 @@ pub enum TextureKind {
         color0: Color,
         /// Elsewhere.
         color1: Color,
+    },
+    /// A [`MeshAttribute`] of the mesh that is hit; black on shapes that have none of this name.
+    MeshAttribute {
+        /// With its prefix.
+        name: String,
+        /// Factor on the values.
+        scale: f32,
+    },
+    /// Another texture times a factor.
+    Scaled {
+        /// Looked up with its own mapping.
+        color: Color,
+        /// Per channel.
+        factor: Rgb,
     },
 }
 

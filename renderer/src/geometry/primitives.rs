@@ -10,6 +10,7 @@ pub fn rectangle() -> Mesh {
         normals: Vec::new(),
         uvs: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
         triangles: vec![[0, 1, 2], [2, 3, 0]],
+        attributes: Vec::new(),
     }
 }
 
@@ -31,6 +32,7 @@ pub fn cube() -> Mesh {
         normals: Vec::new(),
         uvs: [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].repeat(6),
         triangles: (0..6).flat_map(face).collect(),
+        attributes: Vec::new(),
     }
 }
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{LoadedMesh, MeshOptions, Note, normals};
-use crate::Mesh;
+use super::{LoadedMesh, MeshOptions, Note, attributes, normals};
+use crate::{AttributeDomain, Mesh, MeshAttribute};
 
 /// A mesh as it came out of its file: indices are in range, values may be anything.
 #[derive(Debug, Default)]
@@ -16,6 +16,8 @@ pub(super) struct RawMesh {
     /// One a vertex, or none.
     pub uvs: Vec<[f32; 2]>,
     pub triangles: Vec<[u32; 3]>,
+    /// Of vertices, and of the faces of the file.
+    pub attributes: Vec<MeshAttribute>,
     /// The number of the face in the file that each triangle was cut from, counted from 1; empty: its own number.
     pub faces: Vec<u32>,
     /// The number in the file that each vertex has, counted from 1; empty: its own number.
@@ -49,12 +51,14 @@ impl Positions {
 impl RawMesh {
     /// The mesh that a scene can hold.
     pub fn finish(self, options: MeshOptions) -> LoadedMesh {
-        let Self { positions, normals: file_normals, uvs, triangles, faces, numbers, mut notes } = self;
+        let Self { positions, normals: file_normals, uvs, triangles, attributes, faces, numbers, mut notes } =
+            self;
         let (positions, offset) = match positions {
             Positions::Single(positions) => (positions, DVec3::ZERO),
             Positions::Double(positions) => round(positions),
         };
-        let mut mesh = Mesh { positions, normals: file_normals, uvs, triangles };
+        let mut mesh = Mesh { positions, normals: file_normals, uvs, triangles, attributes };
+        attributes::of_triangles(&mut mesh.attributes, &faces);
         if options.face_normals {
             mesh.normals = Vec::new();
         }
@@ -68,6 +72,7 @@ impl RawMesh {
             let message = format!("{bad_uvs} texture coordinates are not finite; (0, 0) stands in");
             notes.push(Note { line: 0, message });
         }
+        attributes::make_finite(&mut mesh.attributes, &mut notes);
         if !options.face_normals {
             normals::complete(&mut mesh);
         }
@@ -105,11 +110,13 @@ fn drop_non_finite(mesh: &mut Mesh, faces: &[u32], numbers: &[u32], notes: &mut 
     if mesh.positions.iter().all(is_finite) {
         return;
     }
-    let Mesh { positions, normals, uvs, triangles } = mesh;
+    let Mesh { positions, normals, uvs, triangles, attributes } = mesh;
     let bad_vertex = |t: &[u32; 3]| t.iter().copied().find(|&i| !is_finite(&positions[i as usize]));
     let first = triangles.iter().enumerate().find_map(|(i, t)| bad_vertex(t).map(|vertex| (i, vertex)));
     let before = triangles.len();
-    triangles.retain(|t| bad_vertex(t).is_none());
+    let keep: Vec<bool> = triangles.iter().map(|t| bad_vertex(t).is_none()).collect();
+    attributes::retain(attributes, AttributeDomain::Face, &keep);
+    retain(triangles, &keep);
     if let Some((index, vertex)) = first {
         let in_file =
             |own: usize, numbers: &[u32]| numbers.get(own).map_or(own + 1, |number| *number as usize);
@@ -134,6 +141,7 @@ fn drop_non_finite(mesh: &mut Mesh, faces: &[u32], numbers: &[u32], notes: &mut 
     retain(positions, &keep);
     retain(normals, &keep);
     retain(uvs, &keep);
+    attributes::retain(attributes, AttributeDomain::Vertex, &keep);
     triangles.iter_mut().flatten().for_each(|index| *index = new_index[*index as usize]);
 }
 

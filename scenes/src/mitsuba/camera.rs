@@ -10,8 +10,8 @@ use super::object::Object;
 use super::survey::{FILMS, FILTERS, SAMPLERS, SENSORS, Standing};
 use super::{Reader, value};
 use crate::{
-    Camera, Crop, Film, FovAxis, Lens, PixelFilter, Place, Projection, Sampler, SceneError, Shape, ShapeKind,
-    Warning,
+    Camera, Crop, Film, FovAxis, Lens, PixelFilter, Place, Projection, Sampler, Scene, SceneError, Shape,
+    ShapeKind, Warning,
 };
 
 /// Pixels of a side: more than any picture has, and far from where areas overflow.
@@ -178,7 +178,7 @@ impl Reader<'_> {
 
     /// A camera for a file without one, as Mitsuba places it: 45° wide, looking along +z at the middle of all shapes.
     pub(super) fn default_camera(&mut self) {
-        let (low, high) = bounds(&self.scene.shapes);
+        let (low, high) = bounds(&self.scene);
         let world_from_camera = if low.cmple(high).all() {
             let centre = 0.5 * low + 0.5 * high;
             let distance = (high - low).max_element() / (2.0 * 22.5f64.to_radians().tan());
@@ -282,7 +282,13 @@ fn crop(object: &Object<'_>, size: [i64; 2]) -> Result<Option<Crop>, SceneError>
 }
 
 /// The box around all shapes; its low end above its high end where there are none.
-fn bounds(shapes: &[Shape]) -> (DVec3, DVec3) {
+fn bounds(scene: &Scene) -> (DVec3, DVec3) {
+    let groups: Vec<_> = scene.groups.iter().map(|group| bounds_of(&group.shapes, &[])).collect();
+    bounds_of(&scene.shapes, &groups)
+}
+
+/// Of shapes, given the boxes of the groups.
+fn bounds_of(shapes: &[Shape], groups: &[(DVec3, DVec3)]) -> (DVec3, DVec3) {
     let mut bounds = (DVec3::MAX, DVec3::MIN);
     let mut meshes = HashMap::new(); // by address: many shapes may share a mesh
     for shape in shapes {
@@ -293,6 +299,10 @@ fn bounds(shapes: &[Shape]) -> (DVec3, DVec3) {
             }),
             ShapeKind::Sphere { center, radius } => (*center - *radius, *center + *radius),
             ShapeKind::Cylinder { p0, p1, radius } => (p0.min(*p1) - *radius, p0.max(*p1) + *radius),
+            ShapeKind::Instance { group } => match groups.get(group.0 as usize) {
+                Some(&bounds) => bounds,
+                None => continue,
+            },
             ShapeKind::Disk | ShapeKind::Rectangle => {
                 (DVec3::new(-1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 0.0))
             }

@@ -1,30 +1,55 @@
 //! `<shape>`: surfaces in the world.
 
-use std::sync::Arc;
-
 use glam::{DMat4, DVec3};
 
 use super::Reader;
 use super::camera::is_invertible;
 use super::document::ElementId;
 use super::object::Object;
-use super::survey::{SHAPES, Standing};
-use crate::files::identity;
-use crate::mesh::{LoadedMesh, MeshOptions, obj, ply};
-use crate::{MediumId, Place, SceneError, Shape, ShapeKind, Warning};
+use super::survey::SHAPES;
+use crate::mesh::LoadedMesh;
+use crate::{MediumId, SceneError, Shape, ShapeKind};
+
+/// What a shape is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Owner {
+    Scene,
+    Group,
+}
 
 impl Reader<'_> {
+    /// Reads a shape of the scene.
     pub(super) fn shape(&mut self, id: ElementId) -> Result<(), SceneError> {
+        let mut shapes = std::mem::take(&mut self.scene.shapes);
+        let result = self.shape_into(id, &mut shapes, Owner::Scene);
+        self.scene.shapes = shapes;
+        result
+    }
+
+    /// Reads a shape into a list; a `merge` puts in its parts.
+    pub(super) fn shape_into(
+        &mut self,
+        id: ElementId,
+        shapes: &mut Vec<Shape>,
+        owner: Owner,
+    ) -> Result<(), SceneError> {
         let object = Object::new(self.document, id);
         let kind = object.kind()?;
-        if SHAPES.standing(kind, object.element)? == Standing::Later {
-            self.warn(id, format!("{kind} is not read yet; the shape is left out"));
-            return Ok(());
+        SHAPES.standing(kind, object.element)?; // none is left for later
+        match (kind, owner) {
+            ("shapegroup" | "instance", Owner::Group) => {
+                let problem = format!("a shapegroup that holds a shape of the type \"{kind}\"");
+                return Err(object.error(problem, "put the shapes themselves into the shapegroup"));
+            }
+            ("shapegroup", Owner::Scene) => return self.group(id).map(|_| ()),
+            ("instance", Owner::Scene) => return self.instance(object, shapes),
+            ("merge", _) => return self.merge(object, shapes, owner),
+            _ => {}
         }
         let mut world_from_object = object.transform("to_world")?;
         let flip_normals = object.boolean("flip_normals", false)?;
         let form = match kind {
-            "obj" | "ply" => {
+            "obj" | "ply" | "serialized" => {
                 let LoadedMesh { mesh, offset, .. } = self.mesh(&object, kind)?;
                 world_from_object *= DMat4::from_translation(offset);
                 if mesh.triangles.is_empty() {
@@ -58,6 +83,10 @@ impl Reader<'_> {
             return Ok(());
         }
 
+        if owner == Owner::Group && !object.nested("emitter")?.is_empty() {
+            let help = "take the shape out of the shapegroup, or its emitter away";
+            return Err(object.error("a shape that emits, inside a shapegroup", help));
+        }
         let emission = match object.nested("emitter")?[..] {
             [] => None,
             [(emitter, _)] => self.emission(emitter)?,
@@ -73,8 +102,8 @@ impl Reader<'_> {
             }
         };
         let (interior, exterior) = self.media(&object)?;
-        let name = self.name(&object, kind, self.scene.shapes.len());
-        self.scene.shapes.push(Shape {
+        let name = self.name(&object, kind, shapes.len());
+        shapes.push(Shape {
             name,
             kind: form,
             world_from_object,
@@ -103,50 +132,6 @@ impl Reader<'_> {
             }
         }
         Ok((interior, exterior))
-    }
-
-    /// The mesh of a file, read once for all shapes that read it the same way.
-    fn mesh(&mut self, object: &Object<'_>, kind: &str) -> Result<LoadedMesh, SceneError> {
-        let path = self.file(object)?;
-        let options = MeshOptions {
-            flip_tex_coords: object.boolean("flip_tex_coords", kind == "obj")?,
-            face_normals: object.boolean("face_normals", false)?,
-        };
-        if object.maybe_float("max_smooth_angle")?.is_some() {
-            self.warn(
-                object.id,
-                "max_smooth_angle of 0.x is not honoured: the file's normals count, or smooth ones",
-            );
-        }
-        object.without_effect(&["vertex_normals", "collapse"]);
-        let key = (identity(&path), options);
-        if let Some(known) = self.meshes.get(&key) {
-            return Ok(known.clone());
-        }
-        let label = object.element.label();
-        let bytes = self.bytes(&path, &object.element.place, &label)?;
-        // by content where that tells: extensions are mixed up
-        let is_ply = bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r");
-        let loaded = if is_ply || kind == "ply" {
-            ply::read(&bytes, &path, options)?
-        } else {
-            obj::read(&bytes, &path, options)?
-        };
-        let file = Arc::new(path);
-        for note in &loaded.notes {
-            let place = Place { file: Arc::clone(&file), line: note.line, column: note.line.min(1) };
-            self.warnings.push((
-                object.id,
-                Warning {
-                    place,
-                    element: label.clone(),
-                    message: note.message.clone(),
-                    unused_parameter: false,
-                },
-            ));
-        }
-        self.meshes.insert(key, loaded.clone());
-        Ok(loaded)
     }
 }
 

@@ -90,15 +90,27 @@ pub(super) const BSDFS: Class = Class {
 
 pub(super) const TEXTURES: Class = Class {
     tag: "texture",
-    now: &["bitmap", "checkerboard"],
-    later: &["mesh_attribute", "scale", "rawconstant", "volume"],
+    now: &["bitmap", "checkerboard", "mesh_attribute", "scale", "rawconstant", "uniform", "srgb"],
+    later: &["volume"],
     out: &[],
 };
 
 pub(super) const SHAPES: Class = Class {
     tag: "shape",
-    now: &["obj", "ply", "rectangle", "cube", "sphere", "disk", "cylinder"],
-    later: &["serialized", "shapegroup", "instance", "merge"],
+    now: &[
+        "obj",
+        "ply",
+        "rectangle",
+        "cube",
+        "sphere",
+        "disk",
+        "cylinder",
+        "serialized",
+        "shapegroup",
+        "instance",
+        "merge",
+    ],
+    later: &[],
     out: &[
         ("bsplinecurve", "curves"),
         ("linearcurve", "curves"),

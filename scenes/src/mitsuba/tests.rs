@@ -7,6 +7,7 @@ mod hostile;
 mod language;
 mod nesting;
 mod objects;
+mod shapes;
 mod warnings;
 
 use std::path::Path;

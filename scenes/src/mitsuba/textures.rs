@@ -165,6 +165,23 @@ impl Reader<'_> {
         }
         let texture = match kind {
             "bitmap" => self.bitmap(&object)?,
+            "rawconstant" | "uniform" | "srgb" => {
+                let color = self.constant(&object, kind)?;
+                object.finish(&mut self.warnings);
+                return Ok(color);
+            }
+            "mesh_attribute" => mesh_attribute(&object)?,
+            "scale" => {
+                let one = Color::Constant([1.0; 3]);
+                let Color::Constant(factor) = self.color(&object, "scale", Quantity::Ratio, one)? else {
+                    return Err(object.error("a texture as the scale", "give a number or a colour"));
+                };
+                let color = match object.nested("texture")?[..] {
+                    [(inner, _)] => self.texture(inner)?,
+                    _ => return Err(object.error("not one texture inside", "give it one texture to scale")),
+                };
+                TextureKind::Scaled { color, factor }
+            }
             _ => {
                 let color0 =
                     self.color(&object, "color0", Quantity::Reflectance, Color::Constant([0.4; 3]))?;
@@ -179,6 +196,21 @@ impl Reader<'_> {
         self.scene.textures.push(Texture { name, kind: texture, uv_from_surface, place: object.place() });
         object.finish(&mut self.warnings);
         Ok(Color::Texture(texture_id))
+    }
+
+    /// Textures that are the same everywhere.
+    fn constant(&mut self, object: &Object<'_>, kind: &str) -> Result<Color, SceneError> {
+        let key = if kind == "srgb" { "color" } else { "value" };
+        if object.find(key).is_none() {
+            return Err(object.error(format!("no \"{key}\""), "give it a value"));
+        }
+        // three numbers of a rawconstant may be written as a vector
+        match object.find(key) {
+            Some((_, found)) if matches!(found.tag.as_str(), "vector" | "point") => {
+                Ok(Color::Constant(object.vector(key, DVec3::ZERO)?.as_vec3().to_array()))
+            }
+            _ => self.color(object, key, Quantity::Ratio, GREY),
+        }
     }
 
     fn bitmap(&mut self, object: &Object<'_>) -> Result<TextureKind, SceneError> {
@@ -234,6 +266,20 @@ impl Reader<'_> {
         self.images.insert(key, Arc::clone(&image));
         Ok(image)
     }
+}
+
+fn mesh_attribute(object: &Object<'_>) -> Result<TextureKind, SceneError> {
+    let help = "name an attribute, such as \"vertex_color\" or \"face_color\"";
+    let Some((name, parameter)) = object.string("name")? else {
+        return Err(object.error("no \"name\"", help));
+    };
+    if !["vertex_", "face_"].iter().any(|prefix| name.starts_with(prefix)) {
+        let problem = format!("\"{}\" begins with neither vertex_ nor face_", value::shorten(name));
+        return Err(object.value_error(parameter, problem, help));
+    }
+    let scale =
+        object.float_where("scale", 1.0, "in the range of 32 bits", |v| (v as f32).is_finite())? as f32;
+    Ok(TextureKind::MeshAttribute { name: name.into(), scale })
 }
 
 /// `to_uv`, or the four numbers of 0.x; of a 4×4 matrix, rows and columns of x, y and the translation count.

@@ -16,10 +16,6 @@ fn warnings(text: &str) -> Vec<String> {
 fn each_stand_in_is_named_with_its_place() {
     let cases = [
         (
-            r#"¦<shape type="serialized"/>"#,
-            "shape \"serialized\": serialized is not read yet; the shape is left out",
-        ),
-        (
             r#"¦<bsdf type="coating" id="p"/>"#,
             "bsdf \"p\": coating is not read yet; a diffuse bsdf stands in",
         ),
@@ -33,8 +29,8 @@ fn each_stand_in_is_named_with_its_place() {
             "bsdf \"roughcoating\": roughcoating is not read yet; the bsdf inside stands in",
         ),
         (
-            r#"¦<texture type="mesh_attribute"/>"#,
-            "texture \"mesh_attribute\": mesh_attribute is not read yet; grey 0.5 stands in",
+            r#"¦<texture type="volume"/>"#,
+            "texture \"volume\": volume is not read yet; grey 0.5 stands in",
         ),
         (
             r#"¦<sensor type="thinlens"/>"#,
