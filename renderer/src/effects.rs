@@ -1,6 +1,6 @@
 //! Which effects a scene calls for, and what was done for each.
 
-use limpid_scenes::{MaterialId, MaterialKind, NormalMap, Scene};
+use limpid_scenes::{MaterialId, MaterialKind, NormalMap, Scene, ShapeKind};
 
 /// Something that costs time only in scenes that have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,19 +17,22 @@ pub enum Effect {
     NormalMaps,
     /// Shading normals turned by a picture of heights.
     BumpMaps,
+    /// Groups of shapes shown by instances.
+    Instancing,
     /// Participating media: read, and refused by [`prepare`](crate::Prepared::new).
     Media,
 }
 
 impl Effect {
     /// All effects that there are.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::DepthOfField,
         Self::Environment,
         Self::Transmission,
         Self::Alpha,
         Self::NormalMaps,
         Self::BumpMaps,
+        Self::Instancing,
         Self::Media,
     ];
 
@@ -42,6 +45,7 @@ impl Effect {
             Self::Alpha => "alpha",
             Self::NormalMaps => "normal maps",
             Self::BumpMaps => "bump maps",
+            Self::Instancing => "instancing",
             Self::Media => "media",
         }
     }
@@ -60,7 +64,8 @@ pub struct Called {
 pub fn effects(scene: &Scene) -> Vec<Called> {
     let lens = scene.cameras.iter().find(|camera| camera.lens.is_some());
     let environment = scene.lights.iter().find(|light| light.kind.is_at_infinity());
-    let mut used: Vec<MaterialId> = scene.shapes.iter().map(|shape| shape.material).collect();
+    let in_groups = scene.groups.iter().flat_map(|group| &group.shapes);
+    let mut used: Vec<MaterialId> = scene.shapes.iter().chain(in_groups).map(|shape| shape.material).collect();
     used.sort_unstable();
     used.dedup();
     let material = |test: fn(&MaterialKind) -> bool| {
@@ -73,6 +78,7 @@ pub fn effects(scene: &Scene) -> Vec<Called> {
     let bump_map =
         material(|kind| matches!(kind, MaterialKind::Perturbed { map: NormalMap::Bump { .. }, .. }));
     let transmission = material(MaterialKind::transmits);
+    let instance = scene.shapes.iter().find(|shape| matches!(shape.kind, ShapeKind::Instance { .. }));
     let because = |what: &str, name: &String| format!("{what} \"{name}\"");
     [
         (Effect::DepthOfField, lens.map(|c| because("sensor", &c.name))),
@@ -81,6 +87,7 @@ pub fn effects(scene: &Scene) -> Vec<Called> {
         (Effect::Alpha, alpha.map(|name| because("bsdf", name))),
         (Effect::NormalMaps, normal_map.map(|name| because("bsdf", name))),
         (Effect::BumpMaps, bump_map.map(|name| because("bsdf", name))),
+        (Effect::Instancing, instance.map(|s| because("shape", &s.name))),
         (Effect::Media, scene.media.first().map(|m| because("medium", &m.name))),
     ]
     .into_iter()
@@ -109,6 +116,8 @@ pub struct Counters {
     pub normal_maps: u64,
     /// Shading normals turned by a picture of heights.
     pub bump_maps: u64,
+    /// Hits through instances.
+    pub instancing: u64,
 }
 
 impl Counters {
@@ -123,6 +132,7 @@ impl Counters {
         self.alpha += other.alpha;
         self.normal_maps += other.normal_maps;
         self.bump_maps += other.bump_maps;
+        self.instancing += other.instancing;
     }
 
     /// What was done for an effect.
@@ -134,6 +144,7 @@ impl Counters {
             Effect::Alpha => self.alpha,
             Effect::NormalMaps => self.normal_maps,
             Effect::BumpMaps => self.bump_maps,
+            Effect::Instancing => self.instancing,
             Effect::Media => 0,
         }
     }

@@ -1,12 +1,14 @@
 //! From a scene to what paths are traced in.
 
+use std::ops::Range;
+
 use glam::{DVec3, Vec2};
 use limpid_scenes::{Camera as SceneCamera, Place, Scene};
 
-use crate::accel::{Accel, Hit, NONE, Ray};
+use crate::accel::{Accel, Hit, Instance, NONE, Prims, Ray};
 use crate::bsdf::Lobes;
 use crate::effects::{Called, Counters, Effect, effects};
-use crate::geometry::{Geometry, Surface};
+use crate::geometry::{Geometry, Surface, shape_of};
 use crate::light::Lights;
 use crate::material::{At, Materials};
 use crate::path::Scattering;
@@ -65,7 +67,7 @@ impl Prepared {
         let origin = camera.world_from_camera.w_axis.truncate();
         let geometry = Geometry::new(scene, origin);
         if let Some(shape) = geometry.out_of_range() {
-            let shape = &scene.shapes[shape];
+            let shape = shape_of(scene, shape).expect("it is one of the scene's");
             return Err(PrepareError {
                 place: shape.place.clone(),
                 element: format!("shape \"{}\"", shape.name),
@@ -73,10 +75,7 @@ impl Prepared {
                 help: "check the transforms of the shape and of the camera, or scale the scene down".into(),
             });
         }
-        let triangles: Vec<_> =
-            (0..geometry.triangles.len() as u32).map(|prim| geometry.corners(prim)).collect();
-        let accel = Accel::build(&triangles, &geometry.analytics);
-        drop(triangles);
+        let accel = accelerate(&geometry);
         let textures = Textures::prepare(scene);
         let materials = Materials::prepare(scene)?;
         let lights = Lights::new(scene, &geometry, &textures, origin, accel.radius());
@@ -96,10 +95,35 @@ impl Prepared {
         self.lights.bad_texels()
     }
 
-    /// Number of triangles, built-in shapes included.
+    /// Number of triangles, built-in shapes included; those of a group count once.
     pub fn triangles(&self) -> usize {
         self.geometry.triangles.len()
     }
+}
+
+/// Builds the trees: over the scene's own primitives, over those of each group, and over the instances.
+fn accelerate(geometry: &Geometry) -> Accel {
+    let corners: Vec<_> = (0..geometry.triangles.len() as u32).map(|prim| geometry.corners(prim)).collect();
+    let prims = |triangles: Range<u32>, analytics: Range<u32>| Prims {
+        triangles: &corners[triangles.start as usize..triangles.end as usize],
+        first_triangle: triangles.start,
+        analytics: &geometry.analytics[analytics.start as usize..analytics.end as usize],
+        first_analytic: geometry.triangles.len() as u32 + analytics.start,
+    };
+    let groups: Vec<_> =
+        geometry.groups.iter().map(|group| prims(group.triangles.clone(), group.analytics.clone())).collect();
+    let (triangles, analytics) = match geometry.groups.first() {
+        Some(first) => (first.triangles.start, first.analytics.start),
+        None => (geometry.triangles.len() as u32, geometry.analytics.len() as u32),
+    };
+    let instances: Vec<_> = (geometry.instances.iter())
+        .map(|placed| Instance {
+            group: placed.group,
+            render_from_group: placed.frame.render_from_object,
+            after: placed.after,
+        })
+        .collect();
+    Accel::new(&prims(0..triangles, 0..analytics), &groups, &instances)
 }
 
 /// A ray in world space, for questions about a scene's geometry.
@@ -177,7 +201,7 @@ impl Prepared {
                     t: hit.t.into(),
                     p: surface.p.as_dvec3() + self.origin,
                     ng: surface.ng.as_dvec3(),
-                    shape: surface.shape,
+                    shape: surface.object,
                 }
             })
         };

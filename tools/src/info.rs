@@ -123,14 +123,19 @@ fn of_scene(path: &Path, reading: &Reading, common: &Common) -> Result<Value, Cl
     }))
 }
 
-/// Triangles, and shapes that show a mesh again which an earlier one has.
+/// Triangles, those of a group once, and shapes that show a group, or a mesh again which an earlier one has.
 fn geometry(scene: &Scene) -> (usize, usize) {
     let (mut triangles, mut instances, mut meshes) = (0, 0, HashSet::new());
-    for shape in &scene.shapes {
+    let in_groups = scene.groups.iter().flat_map(|group| &group.shapes);
+    for shape in scene.shapes.iter().chain(in_groups) {
         triangles += match &shape.kind {
             ShapeKind::Mesh(mesh) => {
                 instances += usize::from(!meshes.insert(Arc::as_ptr(mesh)));
                 mesh.triangles.len()
+            }
+            ShapeKind::Instance { .. } => {
+                instances += 1;
+                0
             }
             ShapeKind::Rectangle => 2,
             ShapeKind::Cube => 12,

@@ -3,11 +3,11 @@
 //! Each is the unit sphere, cylinder or disk under an affine map, so that an ellipsoid is no special case, and a
 //! ground sphere of radius 1e7 under a teapot keeps its digits.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use super::build::Bounds;
-use super::kernel::{Blocks, ShearedRay};
-use super::{Frame64, Hit, Ray};
+use super::kernel::{Blocks, Child, Entry, ShearedRay};
+use super::{Frame64, Hit, NONE, Ray};
 
 /// The form in object space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,17 +41,14 @@ impl Analytic {
             AnalyticKind::Disk => (m.translation, round(x * x + y * y)),
         };
         let (min, max) = (center - half, center + half);
-        Bounds {
-            min: Vec3::from_array(min.to_array().map(round_down)),
-            max: Vec3::from_array(max.to_array().map(round_up)),
-        }
+        Bounds::outwards(min, max)
     }
 
     /// The nearest distance in (0, ∞).
     #[inline(always)]
-    fn intersect(&self, ray: &Ray) -> Option<f64> {
-        let o = self.frame.object_from_render.transform_point3(ray.o.as_dvec3());
-        let d = self.frame.object_from_render.transform_vector3(ray.d.as_dvec3());
+    fn intersect(&self, ray: &ShearedRay) -> Option<f64> {
+        let o = self.frame.object_from_render.transform_point3(ray.o64);
+        let d = self.frame.object_from_render.transform_vector3(ray.d64);
         match self.kind {
             AnalyticKind::Sphere => intersect_unit_sphere(o, d),
             AnalyticKind::Cylinder => intersect_unit_cylinder(o, d),
@@ -99,16 +96,6 @@ fn roots(a: f64, b: f64, c: f64, discriminant: f64) -> Option<[f64; 2]> {
     Some(if b < 0.0 { [q / a, c / q] } else { [c / q, q / a] })
 }
 
-fn round_down(x: f64) -> f32 {
-    let y = x as f32;
-    if f64::from(y) > x { y.next_down() } else { y }
-}
-
-fn round_up(x: f64) -> f32 {
-    let y = x as f32;
-    if f64::from(y) < x { y.next_up() } else { y }
-}
-
 /// A leaf of analytic shapes.
 #[derive(Clone, Debug)]
 pub struct Analytics {
@@ -123,23 +110,25 @@ impl Analytics {
 }
 
 impl Blocks for Analytics {
+    const MOST: usize = 4;
+
     #[inline(always)]
-    fn closest(&self, ray: &Ray, _: &ShearedRay, hit: &mut Hit) {
+    fn closest(&self, ray: &Ray, sheared: &ShearedRay, _: &mut [Entry], hit: &mut Hit) {
         for &(prim, shape) in &self.shapes {
-            if let Some(t) = shape.intersect(ray).map(|t| t as f32)
+            if let Some(t) = shape.intersect(sheared).map(|t| t as f32)
                 && prim != ray.skip
                 && hit.beaten_by(t, prim)
                 && t < ray.t_max
             {
-                *hit = Hit { t, prim, u: 0.0, v: 0.0 };
+                *hit = Hit { t, prim, u: 0.0, v: 0.0, instance: NONE };
             }
         }
     }
 
     #[inline(always)]
-    fn occluded(&self, ray: &Ray, _: &ShearedRay) -> bool {
+    fn occluded(&self, ray: &Ray, sheared: &ShearedRay, _: &mut [Child]) -> bool {
         self.shapes.iter().any(|(prim, shape)| {
-            *prim != ray.skip && shape.intersect(ray).is_some_and(|t| (t as f32) < ray.t_max)
+            *prim != ray.skip && shape.intersect(sheared).is_some_and(|t| (t as f32) < ray.t_max)
         })
     }
 }

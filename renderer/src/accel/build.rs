@@ -5,9 +5,6 @@ use obvhs::{Boundable, BvhBuildParams, aabb::Aabb, bvh2::Bvh2, bvh2::builder::bu
 
 use super::kernel::{Blocks, Child, Node, Tree, WIDTH};
 
-/// Most primitives in a leaf: one block.
-const LEAF: usize = 4;
-
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
@@ -26,6 +23,14 @@ impl Bounds {
 
     pub fn of_points(points: &[Vec3]) -> Self {
         points.iter().fold(Self::EMPTY, |b, &p| Self { min: b.min.min(p), max: b.max.max(p) })
+    }
+
+    /// Rounded so that nothing is cut off.
+    pub fn outwards(min: DVec3, max: DVec3) -> Self {
+        Self {
+            min: Vec3::from_array(min.to_array().map(round_down)),
+            max: Vec3::from_array(max.to_array().map(round_up)),
+        }
     }
 
     pub fn union(&self, other: &Self) -> Self {
@@ -51,13 +56,23 @@ impl Bounds {
     }
 }
 
+fn round_down(x: f64) -> f32 {
+    let y = x as f32;
+    if f64::from(y) > x { y.next_down() } else { y }
+}
+
+fn round_up(x: f64) -> f32 {
+    let y = x as f32;
+    if f64::from(y) < x { y.next_up() } else { y }
+}
+
 /// Builds the wide tree over boxes; `block` makes a leaf's data from its primitives' indices.
 pub fn wide_tree<B: Blocks>(bounds: &[Bounds], block: impl Fn(&[u32]) -> B) -> Tree<B> {
     let mut tree = Tree::default();
     if bounds.is_empty() {
         return tree;
     }
-    let params = BvhBuildParams { max_prims_per_leaf: LEAF as u32, ..BvhBuildParams::fast_build() };
+    let params = BvhBuildParams { max_prims_per_leaf: B::MOST as u32, ..BvhBuildParams::fast_build() };
     let bvh = build_bvh2(bounds, params, &mut std::time::Duration::default());
     let mut stack = vec![(0usize, 0usize, 0usize)]; // binary node, wide node, stack entries in use above it
     tree.nodes.push(Node::EMPTY);
@@ -71,7 +86,9 @@ pub fn wide_tree<B: Blocks>(bounds: &[Bounds], block: impl Fn(&[u32]) -> B) -> T
             let link = if node.is_leaf() {
                 let first = node.first_index as usize;
                 let prims = &bvh.primitive_indices[first..first + node.prim_count as usize];
-                tree.blocks.push(block(prims));
+                let block = block(prims);
+                tree.block_need = tree.block_need.max(block.stack_need());
+                tree.blocks.push(block);
                 Child::leaf(tree.blocks.len() - 1)
             } else {
                 tree.nodes.push(Node::EMPTY);

@@ -6,14 +6,19 @@
 
 mod analytic;
 mod build;
+mod instance;
 mod kernel;
 mod triangle;
 
-use glam::{DAffine3, Vec3};
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3, Vec3};
 
 use analytic::Analytics;
 pub use analytic::{Analytic, AnalyticKind};
-use build::Bounds;
+pub use build::Bounds;
+use instance::Placed;
+pub use instance::{Instance, image};
 use kernel::Tree;
 use triangle::TriangleBlock;
 
@@ -45,17 +50,19 @@ impl Ray {
 pub struct Hit {
     /// Distance; infinite for a miss.
     pub t: f32,
-    /// Triangles count from 0 in the order given to [`Accel::build`], analytic shapes follow; [`NONE`]: a miss.
+    /// As numbered by [`Prims`]; [`NONE`]: a miss.
     pub prim: u32,
     /// Barycentric coordinate of the triangle's second vertex.
     pub u: f32,
     /// Barycentric coordinate of the triangle's third vertex.
     pub v: f32,
+    /// The instance through which it was hit, or [`NONE`].
+    pub instance: u32,
 }
 
 impl Hit {
     /// Nothing was hit.
-    pub const MISS: Self = Self { t: f32::INFINITY, prim: NONE, u: 0.0, v: 0.0 };
+    pub const MISS: Self = Self { t: f32::INFINITY, prim: NONE, u: 0.0, v: 0.0, instance: NONE };
 
     /// Nearer, or equally far and declared earlier: one rule for all pixels where surfaces coincide.
     #[inline(always)]
@@ -64,28 +71,91 @@ impl Hit {
     }
 }
 
-/// The acceleration structure of a scene.
-pub struct Accel {
+/// Primitives in one space, with their ids.
+pub struct Prims<'a> {
+    /// Three corners each, finite.
+    pub triangles: &'a [[Vec3; 3]],
+    /// Id of the first triangle; the others count on.
+    pub first_triangle: u32,
+    /// Spheres and the like.
+    pub analytics: &'a [Analytic],
+    /// Id of the first of them.
+    pub first_analytic: u32,
+}
+
+/// The trees over primitives of one space.
+struct Level {
     triangles: Tree<TriangleBlock>,
     analytics: Tree<Analytics>,
+    bounds: Bounds,
+    /// Of the sphere around the box.
+    center: DVec3,
+    radius: f64,
+}
+
+impl Level {
+    fn build(prims: &Prims) -> Self {
+        let triangle_bounds: Vec<Bounds> = prims.triangles.iter().map(|t| Bounds::of_points(t)).collect();
+        let analytic_bounds: Vec<Bounds> = prims.analytics.iter().map(Analytic::bounds).collect();
+        let mut bounds = Bounds::EMPTY;
+        triangle_bounds.iter().chain(&analytic_bounds).for_each(|b| bounds = bounds.union(b));
+        Self {
+            triangles: build::wide_tree(&triangle_bounds, |indices| {
+                TriangleBlock::new(prims.triangles, prims.first_triangle, indices)
+            }),
+            analytics: build::wide_tree(&analytic_bounds, |indices| {
+                Analytics::new(prims.analytics, prims.first_analytic, indices)
+            }),
+            bounds,
+            center: 0.5 * (bounds.min.as_dvec3() + bounds.max.as_dvec3()),
+            radius: bounds.radius(),
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.triangles.is_empty() && self.analytics.is_empty()
+    }
+}
+
+/// The acceleration structure of a scene.
+pub struct Accel {
+    top: Level,
+    /// Empty in scenes without, which then pay nothing for them.
+    instances: Tree<Placed>,
     bounds: Bounds,
 }
 
 impl Accel {
-    /// Builds over triangles (three corners each, finite) and analytic shapes.
+    /// Builds over primitives in render space, groups of others and instances that show these.
+    pub fn new(top: &Prims, groups: &[Prims], instances: &[Instance]) -> Self {
+        let top = Level::build(top);
+        let groups: Vec<Arc<Level>> = groups.iter().map(|group| Arc::new(Level::build(group))).collect();
+        let mut bounds = top.bounds;
+        // A group of nothing has no box.
+        let shown: Vec<u32> = (0..instances.len() as u32)
+            .filter(|&i| !groups[instances[i as usize].group as usize].is_empty())
+            .collect();
+        let boxes: Vec<Bounds> = shown
+            .iter()
+            .map(|&i| {
+                let Instance { group, render_from_group, .. } = &instances[i as usize];
+                image(&groups[*group as usize].bounds, render_from_group)
+            })
+            .collect();
+        boxes.iter().for_each(|b| bounds = bounds.union(b));
+        let instances = build::wide_tree(&boxes, |indices| {
+            let index = shown[indices[0] as usize];
+            let instance = &instances[index as usize];
+            Placed::new(instance, index, &groups[instance.group as usize])
+        });
+        Self { top, instances, bounds }
+    }
+
+    /// Builds over triangles and analytic shapes, numbered in this order.
+    #[cfg(test)]
     pub fn build(triangles: &[[Vec3; 3]], analytics: &[Analytic]) -> Self {
         let first_analytic = triangles.len() as u32;
-        let triangle_bounds: Vec<Bounds> = triangles.iter().map(|t| Bounds::of_points(t)).collect();
-        let analytic_bounds: Vec<Bounds> = analytics.iter().map(Analytic::bounds).collect();
-        let mut bounds = Bounds::EMPTY;
-        triangle_bounds.iter().chain(&analytic_bounds).for_each(|b| bounds = bounds.union(b));
-        Self {
-            triangles: build::wide_tree(&triangle_bounds, |prims| TriangleBlock::new(triangles, prims)),
-            analytics: build::wide_tree(&analytic_bounds, |prims| {
-                Analytics::new(analytics, first_analytic, prims)
-            }),
-            bounds,
-        }
+        Self::new(&Prims { triangles, first_triangle: 0, analytics, first_analytic }, &[], &[])
     }
 
     /// The nearest hit of each ray before its `t_max`. Both slices have the same length.
@@ -93,9 +163,12 @@ impl Accel {
         for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
             *hit = Hit { t: ray.t_max, ..Hit::MISS };
         }
-        kernel::closest(&self.triangles, rays, hits);
-        if !self.analytics.is_empty() {
-            kernel::closest(&self.analytics, rays, hits);
+        kernel::closest(&self.top.triangles, rays, hits);
+        if !self.top.analytics.is_empty() {
+            kernel::closest(&self.top.analytics, rays, hits);
+        }
+        if !self.instances.is_empty() {
+            kernel::closest(&self.instances, rays, hits);
         }
         for hit in hits {
             if hit.prim == NONE {
@@ -107,9 +180,12 @@ impl Accel {
     /// Whether anything lies on each ray before its `t_max`. Both slices have the same length.
     pub fn occluded(&self, rays: &[Ray], blocked: &mut [bool]) {
         blocked.fill(false);
-        kernel::occluded(&self.triangles, rays, blocked);
-        if !self.analytics.is_empty() {
-            kernel::occluded(&self.analytics, rays, blocked);
+        kernel::occluded(&self.top.triangles, rays, blocked);
+        if !self.top.analytics.is_empty() {
+            kernel::occluded(&self.top.analytics, rays, blocked);
+        }
+        if !self.instances.is_empty() {
+            kernel::occluded(&self.instances, rays, blocked);
         }
     }
 

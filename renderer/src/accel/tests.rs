@@ -47,7 +47,12 @@ fn rays(count: usize) -> Vec<Ray> {
 fn brute_force(triangles: &[[Vec3; 3]], ray: &Ray) -> Hit {
     let mut hit = Hit { t: ray.t_max, ..Hit::MISS };
     for prim in 0..triangles.len() as u32 {
-        TriangleBlock::new(triangles, &[prim]).closest(ray, &kernel::ShearedRay::new(ray), &mut hit);
+        TriangleBlock::new(triangles, 0, &[prim]).closest(
+            ray,
+            &kernel::ShearedRay::new(ray),
+            &mut [],
+            &mut hit,
+        );
     }
     if hit.prim == NONE { Hit::MISS } else { hit }
 }
@@ -79,7 +84,7 @@ fn every_instruction_set_gives_the_same_bits() {
     let mut best = vec![Hit::MISS; rays.len()];
     let mut scalar: Vec<Hit> = rays.iter().map(|r| Hit { t: r.t_max, ..Hit::MISS }).collect();
     accel.closest(&rays, &mut best);
-    kernel::scalar_closest(&accel.triangles, &rays, &mut scalar);
+    kernel::scalar_closest(&accel.top.triangles, &rays, &mut scalar);
     for (a, b) in best.iter().zip(&scalar) {
         assert_eq!((a.prim, a.u.to_bits(), a.v.to_bits()), (b.prim, b.u.to_bits(), b.v.to_bits()));
         assert!(a.prim == NONE || a.t.to_bits() == b.t.to_bits());

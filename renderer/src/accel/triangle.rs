@@ -12,7 +12,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::kernel::{Blocks, ShearedRay};
+use super::kernel::{Blocks, Child, Entry, ShearedRay};
 use super::{Hit, NONE, Ray};
 
 /// Lanes of a block.
@@ -27,11 +27,11 @@ pub struct TriangleBlock {
 }
 
 impl TriangleBlock {
-    /// Gathers the triangles with these indices.
-    pub fn new(triangles: &[[Vec3; 3]], prims: &[u32]) -> Self {
+    /// Gathers the triangles with these indices; `first` is the primitive id of triangle 0.
+    pub fn new(triangles: &[[Vec3; 3]], first: u32, prims: &[u32]) -> Self {
         let mut block = Self { v: [[[f32::NAN; LANES]; 3]; 3], prim: [NONE; LANES] };
         for (lane, &prim) in prims.iter().enumerate() {
-            block.prim[lane] = prim;
+            block.prim[lane] = first + prim;
             for (vertex, p) in triangles[prim as usize].iter().enumerate() {
                 for axis in 0..3 {
                     block.v[vertex][axis][lane] = p[axis];
@@ -83,7 +83,7 @@ impl TriangleBlock {
 
     /// The exact test of one lane: distance and barycentric coordinates of the second and third vertex.
     #[inline(always)]
-    fn intersect(&self, ray: &Ray, sheared: &ShearedRay, lane: usize) -> Option<(f32, f32, f32)> {
+    fn intersect(&self, sheared: &ShearedRay, lane: usize) -> Option<(f32, f32, f32)> {
         let [kx, ky, kz] = sheared.k;
         let project = |vertex: usize| {
             let p = |axis: usize| self.v[vertex][axis][lane];
@@ -107,45 +107,48 @@ impl TriangleBlock {
             let p = |axis: usize| f64::from(self.v[i][axis][lane]);
             DVec3::new(p(0), p(1), p(2))
         };
-        let (o, d) = (ray.o.as_dvec3(), ray.d.as_dvec3());
+        let (o, d) = (sheared.o64, sheared.d64);
         let (a, b, c) = (vertex(0), vertex(1), vertex(2));
         let n = (b - a).cross(c - a);
         let cos = n.dot(d);
         let t = if cos != 0.0 {
             n.dot(a - o) / cos
         } else {
-            (u * az + v * bz + w * cz) * f64::from(sheared.s[2]) / det
+            let [start, unit] = sheared.distances;
+            start + unit * ((u * az + v * bz + w * cz) * f64::from(sheared.s[2]) / det)
         };
         (t > 0.0).then_some((t as f32, (v / det) as f32, (w / det) as f32))
     }
 }
 
 impl Blocks for TriangleBlock {
+    const MOST: usize = LANES;
+
     #[inline(always)]
-    fn closest(&self, ray: &Ray, sheared: &ShearedRay, hit: &mut Hit) {
+    fn closest(&self, ray: &Ray, sheared: &ShearedRay, _: &mut [Entry], hit: &mut Hit) {
         let mut mask = self.candidates(sheared);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;
             let prim = self.prim[lane];
-            if let Some((t, u, v)) = self.intersect(ray, sheared, lane)
+            if let Some((t, u, v)) = self.intersect(sheared, lane)
                 && prim != ray.skip
                 && hit.beaten_by(t, prim)
                 && t < ray.t_max
             {
-                *hit = Hit { t, prim, u, v };
+                *hit = Hit { t, prim, u, v, instance: NONE };
             }
         }
     }
 
     #[inline(always)]
-    fn occluded(&self, ray: &Ray, sheared: &ShearedRay) -> bool {
+    fn occluded(&self, ray: &Ray, sheared: &ShearedRay, _: &mut [Child]) -> bool {
         let mut mask = self.candidates(sheared);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;
             if self.prim[lane] != ray.skip
-                && self.intersect(ray, sheared, lane).is_some_and(|(t, ..)| t < ray.t_max)
+                && self.intersect(sheared, lane).is_some_and(|(t, ..)| t < ray.t_max)
             {
                 return true;
             }

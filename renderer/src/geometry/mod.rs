@@ -2,6 +2,7 @@
 //!
 //! Render space is world space with its origin moved to the camera *before* rounding to `f32`.
 
+mod groups;
 mod primitives;
 mod surface;
 
@@ -9,6 +10,7 @@ use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
 use limpid_scenes::{MaterialId, Scene, Shape as SceneShape, ShapeKind};
 
 use crate::accel::{Analytic, AnalyticKind, Frame64};
+pub use groups::{Group, Placed, shape_of};
 use primitives::{cube, cylinder, rectangle};
 pub use surface::{Frame, Surface};
 
@@ -32,8 +34,12 @@ pub struct Geometry {
     pub analytics: Vec<Analytic>,
     /// The shape of each.
     analytic_shapes: Vec<u32>,
-    /// As in the scene.
+    /// As in the scene; those of its groups follow, group by group, in the groups' own spaces.
     pub shapes: Vec<Shape>,
+    /// As in the scene.
+    pub groups: Vec<Group>,
+    /// In the order of the scene's shapes.
+    pub instances: Vec<Placed>,
 }
 
 /// What the primitives of one shape have in common.
@@ -56,26 +62,14 @@ impl Geometry {
     /// Moves everything into the space whose origin is `origin`.
     pub fn new(scene: &Scene, origin: DVec3) -> Self {
         let mut geometry = Self::default();
-        let triangles: usize = scene.shapes.iter().map(triangle_count).sum();
+        let in_groups = scene.groups.iter().flat_map(|group| &group.shapes);
+        let triangles: usize = scene.shapes.iter().chain(in_groups).map(triangle_count).sum();
         geometry.triangles.reserve(triangles);
         geometry.triangle_shapes.reserve(triangles);
         for shape in &scene.shapes {
-            let render_from_object = DMat4::from_translation(-origin) * shape.world_from_object;
-            match &shape.kind {
-                ShapeKind::Mesh(mesh) => geometry.add_mesh(shape, mesh, render_from_object),
-                ShapeKind::Rectangle => geometry.add_mesh(shape, &rectangle(), render_from_object),
-                ShapeKind::Cube => geometry.add_mesh(shape, &cube(), render_from_object),
-                ShapeKind::Sphere { center, radius } => {
-                    let ball = DMat4::from_translation(*center) * DMat4::from_scale(DVec3::splat(*radius));
-                    geometry.add_analytic(shape, AnalyticKind::Sphere, render_from_object * ball);
-                }
-                ShapeKind::Cylinder { p0, p1, radius } => {
-                    let unit = render_from_object * cylinder(*p0, *p1, *radius);
-                    geometry.add_analytic(shape, AnalyticKind::Cylinder, unit);
-                }
-                ShapeKind::Disk => geometry.add_analytic(shape, AnalyticKind::Disk, render_from_object),
-            }
+            geometry.add(shape, DMat4::from_translation(-origin) * shape.world_from_object);
         }
+        geometry.add_groups(scene);
         // Analytic primitives are numbered after all triangles.
         for shape in &mut geometry.shapes {
             if shape.first_vertex == ABSENT {
@@ -83,6 +77,25 @@ impl Geometry {
             }
         }
         geometry
+    }
+
+    /// Adds a shape under a map into the space that it is to be in.
+    fn add(&mut self, shape: &SceneShape, space_from_object: DMat4) {
+        match &shape.kind {
+            ShapeKind::Mesh(mesh) => self.add_mesh(shape, mesh, space_from_object),
+            ShapeKind::Rectangle => self.add_mesh(shape, &rectangle(), space_from_object),
+            ShapeKind::Cube => self.add_mesh(shape, &cube(), space_from_object),
+            ShapeKind::Sphere { center, radius } => {
+                let ball = DMat4::from_translation(*center) * DMat4::from_scale(DVec3::splat(*radius));
+                self.add_analytic(shape, AnalyticKind::Sphere, space_from_object * ball);
+            }
+            ShapeKind::Cylinder { p0, p1, radius } => {
+                let unit = space_from_object * cylinder(*p0, *p1, *radius);
+                self.add_analytic(shape, AnalyticKind::Cylinder, unit);
+            }
+            ShapeKind::Disk => self.add_analytic(shape, AnalyticKind::Disk, space_from_object),
+            ShapeKind::Instance { group } => self.add_instance(shape, group.0, space_from_object),
+        }
     }
 
     fn add_mesh(&mut self, shape: &SceneShape, mesh: &limpid_scenes::Mesh, render_from_object: DMat4) {
@@ -132,9 +145,11 @@ impl Geometry {
         self.analytics.push(Analytic { kind, frame });
     }
 
-    /// The first shape, if any, with a coordinate that leaves the range of `f32` in render space.
+    /// The first of `shapes`, if any, with a coordinate that leaves the range of `f32` in its space.
     pub fn out_of_range(&self) -> Option<usize> {
-        self.shapes.iter().position(|shape| {
+        let beyond = |placed: &Placed| !self.image(placed).is_finite();
+        let placed = self.instances.iter().find(|placed| beyond(placed)).map(|placed| placed.shape as usize);
+        let own = self.shapes.iter().position(|shape| {
             let prims = shape.first_prim..shape.first_prim + shape.prims;
             let beyond =
                 |prim: u32| match self.analytics.get((prim as usize).wrapping_sub(self.triangles.len())) {
@@ -142,7 +157,8 @@ impl Geometry {
                     None => self.corners(prim).iter().any(|p| !p.is_finite()),
                 };
             prims.into_iter().any(beyond)
-        })
+        });
+        own.or(placed)
     }
 
     /// The shape that a primitive belongs to.
@@ -203,7 +219,10 @@ fn triangle_count(shape: &SceneShape) -> usize {
         ShapeKind::Mesh(mesh) => mesh.triangles.len(),
         ShapeKind::Rectangle => 2,
         ShapeKind::Cube => 12,
-        ShapeKind::Sphere { .. } | ShapeKind::Cylinder { .. } | ShapeKind::Disk => 0,
+        ShapeKind::Sphere { .. }
+        | ShapeKind::Cylinder { .. }
+        | ShapeKind::Disk
+        | ShapeKind::Instance { .. } => 0,
     }
 }
 

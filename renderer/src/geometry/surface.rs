@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec3, Vec2, Vec3};
 
 use super::Geometry;
-use crate::accel::{AnalyticKind, Hit, Ray};
+use crate::accel::{AnalyticKind, Frame64, Hit, NONE, Ray};
 
 /// A point on a surface.
 #[derive(Clone, Copy, Debug)]
@@ -19,17 +19,23 @@ pub struct Surface {
     /// Texture coordinates.
     pub uv: Vec2,
     /// Upper bound of the distance of `p` from the true surface.
-    bound: f32,
-    /// The shape.
+    pub(super) bound: f32,
+    /// The shape: index into [`Geometry::shapes`].
     pub shape: u32,
+    /// What the scene shows there: the shape, or the instance of its group; index into the scene's shapes.
+    pub object: u32,
     /// The primitive.
     pub prim: u32,
+    /// The instance through which it was hit, or [`NONE`].
+    pub instance: u32,
+    /// Barycentric coordinates of the second and third vertex of a triangle.
+    pub bary: Vec2,
 }
 
 /// f32 rounding of one coordinate, relative.
-const ROUND: f32 = f32::EPSILON / 2.0;
+pub(super) const ROUND: f32 = f32::EPSILON / 2.0;
 /// Slack for the `f64` arithmetic behind a hit point, relative to the largest coordinate: a few dozen roundings.
-const SLACK: f32 = 1.0 / (1u64 << 48) as f32;
+pub(super) const SLACK: f32 = 1.0 / (1u64 << 48) as f32;
 
 impl Surface {
     /// A ray from here along the unit vector `d`. Its origin is moved to `d`'s side of the geometric surface by twice
@@ -57,24 +63,35 @@ impl Geometry {
     /// The surface that `ray` hit.
     #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
-        if (hit.prim as usize) < self.triangles.len() {
-            self.triangle_surface(ray, hit)
+        if hit.instance != NONE {
+            self.instance_surface(ray, hit)
         } else {
-            self.analytic_surface(ray, hit)
+            self.local_surface(ray.o.as_dvec3(), ray.d.as_dvec3(), hit).0
+        }
+    }
+
+    /// The surface in the space of its primitive, which the ray from `o` along `d` hit there, and the point before
+    /// rounding.
+    #[inline]
+    pub(super) fn local_surface(&self, o: DVec3, d: DVec3, hit: &Hit) -> (Surface, DVec3) {
+        if (hit.prim as usize) < self.triangles.len() {
+            self.triangle_surface(o, d, hit)
+        } else {
+            self.analytic_surface(o, d, hit)
         }
     }
 
     /// The point lies on the plane through the corners to the last digit of `f32`: barycentric interpolation would
     /// be off by 0.1 units in the middle of a triangle of side 1e6, a point along the ray by the error of `t`.
-    fn triangle_surface(&self, ray: &Ray, hit: &Hit) -> Surface {
+    fn triangle_surface(&self, o: DVec3, d: DVec3, hit: &Hit) -> (Surface, DVec3) {
         let shape_index = self.shape_of(hit.prim);
         let shape = &self.shapes[shape_index as usize];
         let [a, b, c] = self.corners(hit.prim).map(Vec3::as_dvec3);
         let cross = (b - a).cross(c - a);
-        let (o, d) = (ray.o.as_dvec3(), ray.d.as_dvec3());
         let cos = cross.dot(d);
         let t = if cos != 0.0 { cross.dot(a - o) / cos } else { f64::from(hit.t) };
-        let p = (o + t * d).as_vec3();
+        let p64 = o + t * d;
+        let p = p64.as_vec3();
 
         let winding = cross.normalize_or_zero().as_vec3();
         let (w, u, v) = (1.0 - hit.u - hit.v, hit.u, hit.v);
@@ -86,24 +103,27 @@ impl Geometry {
         };
         let [uv_a, uv_b, uv_c] = self.corner_uvs(hit.prim);
         let largest = a.abs().max_element().max(p.abs().max_element().into()) as f32;
-        Surface {
+        let surface = Surface {
             p,
             ng,
             ns,
             uv: w * uv_a + u * uv_b + v * uv_c,
             bound: ROUND * ng.abs().dot(p.abs()) + SLACK * largest,
             shape: shape_index,
+            object: shape_index,
             prim: hit.prim,
-        }
+            instance: NONE,
+            bary: Vec2::new(u, v),
+        };
+        (surface, p64)
     }
 
-    fn analytic_surface(&self, ray: &Ray, hit: &Hit) -> Surface {
+    fn analytic_surface(&self, o: DVec3, d: DVec3, hit: &Hit) -> (Surface, DVec3) {
         let index = hit.prim as usize - self.triangles.len();
         let shape_index = self.analytic_shapes[index];
         let analytic = &self.analytics[index];
         let frame = &analytic.frame;
-        let q =
-            frame.object_from_render.transform_point3(ray.o.as_dvec3() + f64::from(hit.t) * ray.d.as_dvec3());
+        let q = frame.object_from_render.transform_point3(o + f64::from(hit.t) * d);
         let (q, n) = match analytic.kind {
             AnalyticKind::Sphere => (q.normalize_or(DVec3::Z), q.normalize_or(DVec3::Z)),
             AnalyticKind::Cylinder => {
@@ -126,29 +146,43 @@ impl Geometry {
         let m = frame.render_from_object;
         let largest = m.translation.abs().max_element()
             + m.matrix3.to_cols_array().iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        Surface {
+        let surface = Surface {
             p,
             ng,
             ns: ng,
             uv,
             bound: ROUND * ng.abs().dot(p.abs()) + SLACK * largest as f32,
             shape: shape_index,
+            object: shape_index,
             prim: hit.prim,
-        }
+            instance: NONE,
+            bary: Vec2::ZERO,
+        };
+        (surface, p64)
     }
 
     /// ∂p/∂u and ∂p/∂v: the directions that anisotropy and normal maps refer to. Zero where they are undefined.
     pub fn dp_duv(&self, surface: &Surface) -> [Vec3; 2] {
-        let prim = surface.prim;
+        if surface.instance == NONE {
+            return self.local_dp_duv(surface.prim, surface.p.as_dvec3()).map(finite);
+        }
+        let Frame64 { render_from_object, object_from_render } =
+            self.instances[surface.instance as usize].frame;
+        let p = object_from_render.transform_point3(surface.p.as_dvec3());
+        self.local_dp_duv(surface.prim, p).map(|d| finite(render_from_object.transform_vector3(d)))
+    }
+
+    /// Of a primitive in its own space, at the point `p`.
+    fn local_dp_duv(&self, prim: u32, p: DVec3) -> [DVec3; 2] {
         if (prim as usize) < self.triangles.len() {
             let [a, b, c] = self.corners(prim).map(Vec3::as_dvec3);
             let [uv_a, uv_b, uv_c] = self.corner_uvs(prim).map(Vec2::as_dvec2);
             let (e, f, du, dv) = (b - a, c - a, uv_b - uv_a, uv_c - uv_a);
             let det = du.x * dv.y - du.y * dv.x;
-            return [(e * dv.y - f * du.y) / det, (f * du.x - e * dv.x) / det].map(finite);
+            return [(e * dv.y - f * du.y) / det, (f * du.x - e * dv.x) / det];
         }
         let analytic = &self.analytics[prim as usize - self.triangles.len()];
-        let q = analytic.frame.object_from_render.transform_point3(surface.p.as_dvec3());
+        let q = analytic.frame.object_from_render.transform_point3(p);
         let r = q.x.hypot(q.y);
         let around = DVec3::new(-q.y, q.x, 0.0) * TAU;
         let outwards = DVec3::new(q.x, q.y, 0.0) / r;
@@ -158,7 +192,7 @@ impl Geometry {
             AnalyticKind::Disk => [outwards, around],
         };
         let linear: DMat3 = analytic.frame.render_from_object.matrix3;
-        [linear * du, linear * dv].map(finite)
+        [linear * du, linear * dv]
     }
 }
 

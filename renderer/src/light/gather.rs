@@ -79,7 +79,8 @@ fn form(kind: &ShapeKind, turned: bool, geometry: &Geometry, index: usize) -> Li
                 prims,
             })
         }
-        ShapeKind::Mesh(_) | ShapeKind::Cube => {
+        // An instance emits nothing: it has no primitives.
+        ShapeKind::Mesh(_) | ShapeKind::Cube | ShapeKind::Instance { .. } => {
             let prims = shape.first_prim..shape.first_prim + shape.prims;
             LightForm::Triangles(prims.map(|prim| triangle(geometry, prim)).collect())
         }

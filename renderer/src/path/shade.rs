@@ -5,7 +5,7 @@ use limpid_frame::Layer;
 use limpid_scenes::NormalMap;
 
 use super::{Connection, Context, Path, mis_weight};
-use crate::accel::Ray;
+use crate::accel::{NONE, Ray};
 use crate::bsdf::Lobes;
 use crate::color::{Rgb, Split};
 use crate::effects::Counters;
@@ -40,6 +40,7 @@ pub fn shade(
         return nothing;
     }
     let scene = cx.scene;
+    counters.instancing += u64::from(surface.instance != NONE);
     let scattering = Scattering::new(scene, ray, surface);
     let Scattering { frame, wo, hole, .. } = scattering;
     let bounce = path.edges - 1;
@@ -192,7 +193,7 @@ fn record_features(
     if !path.met {
         path.met = true;
         features.set(Layer::Hit, [1.0]);
-        features.ids = [surface.shape as f32, material as f32];
+        features.ids = [surface.object as f32, material as f32];
     } else if bsdf.near_delta() {
         return;
     }

@@ -38,6 +38,7 @@ impl Textures {
                 TextureKind::Bitmap { image, filter, wrap } => {
                     Kind::Bitmap(Bitmap { image: image.clone(), filter: *filter, wrap: *wrap })
                 }
+                TextureKind::MeshAttribute { .. } | TextureKind::Scaled { .. } => todo!(),
                 TextureKind::Checkerboard { color0, color1 } => {
                     Kind::Checkerboard(Checkerboard { colors: [*color0, *color1] })
                 }

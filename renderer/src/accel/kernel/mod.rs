@@ -8,7 +8,8 @@ mod scalar;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
+pub use scalar::{Entry, Slabs, closest_along, occluded_along};
 
 use super::{Hit, Ray};
 
@@ -17,10 +18,16 @@ pub const WIDTH: usize = 8;
 
 /// What a leaf holds: up to a block of primitives.
 pub trait Blocks {
-    /// Replaces `hit` by a nearer one of this block.
-    fn closest(&self, ray: &Ray, sheared: &ShearedRay, hit: &mut Hit);
+    /// Most primitives of a block.
+    const MOST: usize;
+    /// Replaces `hit` by a nearer one of this block. `stack` has room for what the block asks for.
+    fn closest(&self, ray: &Ray, sheared: &ShearedRay, stack: &mut [Entry], hit: &mut Hit);
     /// Whether anything of this block lies before `ray.t_max`.
-    fn occluded(&self, ray: &Ray, sheared: &ShearedRay) -> bool;
+    fn occluded(&self, ray: &Ray, sheared: &ShearedRay, stack: &mut [Child]) -> bool;
+    /// Stack entries that the block needs for a traversal of its own.
+    fn stack_need(&self) -> usize {
+        0
+    }
 }
 
 /// A link to a node or to a leaf's block.
@@ -84,11 +91,13 @@ pub struct Tree<B> {
     pub blocks: Vec<B>,
     /// Most stack entries that a traversal can need.
     pub stack_need: usize,
+    /// Most stack entries that a block can need beyond.
+    pub block_need: usize,
 }
 
 impl<B> Default for Tree<B> {
     fn default() -> Self {
-        Self { nodes: Vec::new(), blocks: Vec::new(), stack_need: 0 }
+        Self { nodes: Vec::new(), blocks: Vec::new(), stack_need: 0, block_need: 0 }
     }
 }
 
@@ -109,6 +118,12 @@ pub struct ShearedRay {
     pub o: [f32; 3],
     /// `d[k[0]] / d[k[2]]`, `d[k[1]] / d[k[2]]`, `1 / d[k[2]]`.
     pub s: [f32; 3],
+    /// The origin without rounding: distances are measured from here.
+    pub o64: DVec3,
+    /// The direction without rounding.
+    pub d64: DVec3,
+    /// Of the ray that is rounded, distance 0 and a unit of distance: 0 and 1 but inside an instance.
+    pub distances: [f64; 2],
 }
 
 impl ShearedRay {
@@ -129,6 +144,9 @@ impl ShearedRay {
             k: [kx, ky, kz],
             o: [ray.o[kx], ray.o[ky], ray.o[kz]],
             s: [ray.d[kx] * inverse, ray.d[ky] * inverse, inverse],
+            o64: ray.o.as_dvec3(),
+            d64: ray.d.as_dvec3(),
+            distances: [0.0, 1.0],
         }
     }
 }

@@ -28,10 +28,7 @@ fn each_stand_in_is_named_with_its_place() {
             r#"¦<bsdf type="roughcoating"><bsdf type="plastic"/></bsdf>"#,
             "bsdf \"roughcoating\": roughcoating is not read yet; the bsdf inside stands in",
         ),
-        (
-            r#"¦<texture type="volume"/>"#,
-            "texture \"volume\": volume is not read yet; grey 0.5 stands in",
-        ),
+        (r#"¦<texture type="volume"/>"#, "texture \"volume\": volume is not read yet; grey 0.5 stands in"),
         (
             r#"¦<sensor type="thinlens"/>"#,
             "sensor \"thinlens\": thinlens: the aperture has no radius; a pinhole stands in",
