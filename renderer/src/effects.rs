@@ -65,7 +65,8 @@ pub fn effects(scene: &Scene) -> Vec<Called> {
     let lens = scene.cameras.iter().find(|camera| camera.lens.is_some());
     let environment = scene.lights.iter().find(|light| light.kind.is_at_infinity());
     let in_groups = scene.groups.iter().flat_map(|group| &group.shapes);
-    let mut used: Vec<MaterialId> = scene.shapes.iter().chain(in_groups).map(|shape| shape.material).collect();
+    let mut used: Vec<MaterialId> =
+        scene.shapes.iter().chain(in_groups).map(|shape| shape.material).collect();
     used.sort_unstable();
     used.dedup();
     let material = |test: fn(&MaterialKind) -> bool| {

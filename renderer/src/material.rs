@@ -3,7 +3,6 @@
 mod flatten;
 mod perturb;
 
-use glam::Vec2;
 use limpid_scenes::{
     Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Scalar, Scene, WardVariant,
 };
@@ -13,7 +12,7 @@ use crate::bsdf::{
     RoughConductor, RoughDielectric, RoughDiffuse, RoughPlastic, ThinDielectric, Turn, Ward,
 };
 use crate::prepare::PrepareError;
-use crate::texture::Textures;
+use crate::texture::{TexturePoint, Textures};
 pub use flatten::Map;
 use flatten::{Flatten, Piece, Share, Side};
 pub use perturb::Perturbed;
@@ -30,7 +29,7 @@ pub struct Materials {
 pub struct At {
     pub material: MaterialId,
     /// Texture coordinates.
-    pub uv: Vec2,
+    pub uv: TexturePoint,
     /// Seen from the side away from the shading normal.
     pub behind: bool,
 }
@@ -180,7 +179,7 @@ impl Materials {
     }
 
     #[inline(always)]
-    fn at(&self, model: &Model, uv: Vec2, textures: &Textures) -> Bsdf<'_> {
+    fn at(&self, model: &Model, uv: TexturePoint, textures: &Textures) -> Bsdf<'_> {
         let color = |c: Color| textures.color(c, uv);
         let scalar = |x: Scalar| textures.scalar(x, uv);
         let complex = |ior: Option<ConductorIor>| ior.map(|ior| Ior { eta: color(ior.eta), k: color(ior.k) });
@@ -247,7 +246,8 @@ impl Model {
 
 /// The product, each factor brought into [0, 1]; NaN counts as 0.
 #[inline]
-fn share(share: &Share, uv: Vec2, textures: &Textures) -> f32 {
+fn share(share: &Share, uv: impl Into<TexturePoint>, textures: &Textures) -> f32 {
+    let uv = uv.into();
     let factor = |&(scalar, complement): &(Scalar, bool)| {
         let x = textures.scalar(scalar, uv);
         let x = if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };

@@ -181,7 +181,7 @@ impl Prepared {
     /// Share of light that goes straight through where `ray` hits.
     pub(crate) fn hole(&self, ray: &Ray, surface: &Surface) -> f32 {
         let material = self.geometry.shapes[surface.shape as usize].material;
-        let at = At { material, uv: surface.uv, behind: ray.d.dot(surface.ns) > 0.0 };
+        let at = At { material, uv: surface.into(), behind: ray.d.dot(surface.ns) > 0.0 };
         self.materials.hole(at, &self.textures)
     }
 

@@ -10,6 +10,7 @@ mod xml;
 
 use std::collections::{HashMap, HashSet};
 use std::io;
+use std::sync::Arc;
 
 use crate::{Aov, Image, Mesh, Scene, SceneError};
 use xml::Xml;
@@ -69,6 +70,8 @@ pub fn export_mitsuba(
         ids: HashSet::new(),
         meshes: HashMap::new(),
         images: HashMap::new(),
+        scaled: Vec::new(),
+        groups: Vec::new(),
         notes: Vec::new(),
     };
     writer.xml.open("scene", &[("version", "3.0.0")]);
@@ -77,6 +80,9 @@ pub fn export_mitsuba(
         writer.camera(camera)?;
     }
     writer.materials()?;
+    for group in &scene.groups {
+        writer.group(group)?;
+    }
     for shape in &scene.shapes {
         writer.shape(shape)?;
     }
@@ -98,6 +104,10 @@ struct Writer<'a> {
     /// Names of the files of meshes that are written, by address and winding.
     meshes: HashMap<(*const Mesh, bool), String>,
     images: HashMap<*const Image, String>,
+    /// Pictures made for the export, which keep their addresses.
+    scaled: Vec<Arc<Image>>,
+    /// Ids of the groups.
+    groups: Vec<String>,
     notes: Vec<String>,
 }
 

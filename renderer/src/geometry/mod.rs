@@ -214,7 +214,8 @@ fn turned(cross: DVec3, normals: Option<[Vec3; 3]>, shape: &Shape) -> bool {
     }
 }
 
-fn triangle_count(shape: &SceneShape) -> usize {
+/// The triangles that a shape becomes.
+pub fn triangle_count(shape: &SceneShape) -> usize {
     match &shape.kind {
         ShapeKind::Mesh(mesh) => mesh.triangles.len(),
         ShapeKind::Rectangle => 2,

@@ -95,7 +95,7 @@ impl Cylinder {
             wi: d.try_normalize()?,
             distance: d.length(),
             pdf: area_pdf(p, q_render, 2.0 * arc.half * self.stretch(phi)),
-            uv: Vec2::new((phi / TAU).rem_euclid(1.0) as f32, u.y as f32),
+            uv: Vec2::new((phi / TAU).rem_euclid(1.0) as f32, u.y as f32).into(),
             prim: self.prim,
         })
     }

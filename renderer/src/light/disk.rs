@@ -42,7 +42,13 @@ impl Disk {
         let d = q - p;
         let uv = Vec2::new(r as f32, u.y as f32);
         let wi = d.try_normalize()?;
-        Some(Drawn { wi, distance: d.length(), pdf: area_pdf(p, q, self.normal), uv, prim: self.prim })
+        Some(Drawn {
+            wi,
+            distance: d.length(),
+            pdf: area_pdf(p, q, self.normal),
+            uv: uv.into(),
+            prim: self.prim,
+        })
     }
 
     pub fn pdf(&self, p: DVec3, q: DVec3) -> f64 {

@@ -49,7 +49,7 @@ impl Lights {
 impl From<&Surface> for LightHit {
     #[inline]
     fn from(surface: &Surface) -> Self {
-        Self { p: surface.p, ng: surface.ng, uv: surface.uv, prim: surface.prim }
+        Self { p: surface.p, ng: surface.ng, uv: surface.into(), prim: surface.prim }
     }
 }
 
@@ -89,9 +89,10 @@ fn form(kind: &ShapeKind, turned: bool, geometry: &Geometry, index: usize) -> Li
 
 fn triangle(geometry: &Geometry, prim: u32) -> LightTriangle {
     let (mut corners, mut uvs) = (geometry.corners(prim), geometry.corner_uvs(prim));
-    if geometry.is_turned(prim) {
+    let turned = geometry.is_turned(prim);
+    if turned {
         corners.swap(1, 2);
         uvs.swap(1, 2);
     }
-    LightTriangle { corners, uvs, prim }
+    LightTriangle { corners, uvs, prim, turned }
 }

@@ -30,7 +30,7 @@ use limpid_scenes::{Color, Light as SceneLight, LightKind};
 
 use crate::color::Rgb;
 use crate::sampling::Distribution1d;
-use crate::texture::Textures;
+use crate::texture::{TexturePoint, Textures};
 use choice::{Weigh, choose_from};
 use delta::Delta;
 use environment::EnvMap;
@@ -74,8 +74,8 @@ pub struct LightHit {
     pub p: Vec3,
     /// Geometric normal, on the side that the scene's author gave it.
     pub ng: Vec3,
-    /// Texture coordinates.
-    pub uv: Vec2,
+    /// Where its radiance is looked up.
+    pub uv: TexturePoint,
     /// The primitive.
     pub prim: u32,
 }
@@ -88,7 +88,7 @@ struct Drawn {
     distance: f64,
     /// Per steradian, without the choice of the light.
     pdf: f64,
-    uv: Vec2,
+    uv: TexturePoint,
     prim: u32,
 }
 

@@ -94,7 +94,7 @@ impl Rectangle {
             wi: d.try_normalize()?,
             distance: d.length(),
             pdf: self.density(p, q, uv, spherical.as_ref()),
-            uv,
+            uv: uv.into(),
             prim: self.prims[usize::from(st.x < st.y)],
         })
     }

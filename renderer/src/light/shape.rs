@@ -38,6 +38,8 @@ pub struct LightTriangle {
     pub uvs: [Vec2; 3],
     /// Its primitive id.
     pub prim: u32,
+    /// The second and third corner have changed places, so that it is counter-clockwise.
+    pub turned: bool,
 }
 
 /// A parallelogram of two triangles that share the diagonal through `corner`.

@@ -100,7 +100,7 @@ impl Sphere {
             wi,
             distance,
             pdf,
-            uv: uv(o + t * w),
+            uv: uv(o + t * w).into(),
             prim: self.prim,
         })
     }

@@ -85,7 +85,7 @@ impl Form {
     pub fn pdf(&self, p: DVec3, at: &LightHit, wi: DVec3) -> f64 {
         match self {
             Self::Triangles(form) => form.pdf(p, at.p.as_dvec3(), at.prim),
-            Self::Rectangle(form) => form.pdf(p, at.p.as_dvec3(), at.uv),
+            Self::Rectangle(form) => form.pdf(p, at.p.as_dvec3(), at.uv.uv),
             Self::Sphere(form) => form.pdf(p, wi),
             Self::Cylinder(form) => form.pdf(p, at.p.as_dvec3()),
             Self::Disk(form) => form.pdf(p, at.p.as_dvec3()),

@@ -93,7 +93,12 @@ fn square(height: f32, half: f32) -> LightForm {
 }
 
 fn triangle(corners: [[f32; 3]; 3], prim: u32) -> LightTriangle {
-    LightTriangle { corners: corners.map(Vec3::from), uvs: [Vec2::ZERO, Vec2::X, Vec2::Y], prim }
+    LightTriangle {
+        corners: corners.map(Vec3::from),
+        uvs: [Vec2::ZERO, Vec2::X, Vec2::Y],
+        prim,
+        turned: false,
+    }
 }
 
 fn triangles(corners: &[[[f32; 3]; 3]]) -> LightForm {
@@ -147,7 +152,7 @@ fn intersect(form: &LightForm, p: Vec3, wi: Vec3) -> Vec<LightHit> {
                 LightHit {
                     p: (o + t * d).as_vec3(),
                     ng: if a.turned { -ng } else { ng },
-                    uv: Vec2::new(turn(q.y as f32, q.x as f32), q.z as f32),
+                    uv: Vec2::new(turn(q.y as f32, q.x as f32), q.z as f32).into(),
                     prim: a.prim,
                 }
             });
@@ -177,7 +182,8 @@ fn intersect(form: &LightForm, p: Vec3, wi: Vec3) -> Vec<LightHit> {
                         uv: Vec2::new(
                             turn(q.y as f32, q.x as f32),
                             (q.z.clamp(-1.0, 1.0).acos() / PI) as f32,
-                        ),
+                        )
+                        .into(),
                         prim: a.prim,
                     }
                 })
@@ -203,7 +209,7 @@ fn plane(o: DVec3, d: DVec3, corner: DVec3, u: DVec3, v: DVec3) -> Option<(f32, 
 fn on_plane(o: DVec3, d: DVec3, corner: DVec3, u: DVec3, v: DVec3, uv: Vec2, prim: u32) -> LightHit {
     let n = u.cross(v);
     let t = n.dot(corner - o) / n.dot(d);
-    LightHit { p: (o + t * d).as_vec3(), ng: n.normalize().as_vec3(), uv, prim }
+    LightHit { p: (o + t * d).as_vec3(), ng: n.normalize().as_vec3(), uv: uv.into(), prim }
 }
 
 /// One light of each kind and situation, with a name, and points to look at it from.

@@ -5,7 +5,7 @@ use limpid_scenes::Color;
 
 use crate::color::luminance;
 use crate::sampling::Distribution2d;
-use crate::texture::Textures;
+use crate::texture::{TexturePoint, Textures};
 
 /// Cells along a side, at most: a megabyte of sums a megapixel.
 const MOST_CELLS: f64 = 1024.0;
@@ -74,8 +74,8 @@ impl Texels {
 }
 
 /// Of a colour; 0 where it is negative or no number.
-pub fn luminance_at(color: Color, textures: &Textures, uv: Vec2) -> f64 {
-    let value = f64::from(luminance(textures.color(color, uv)));
+pub fn luminance_at(color: Color, textures: &Textures, at: impl Into<TexturePoint>) -> f64 {
+    let value = f64::from(luminance(textures.color(color, at)));
     if value.is_finite() { value.max(0.0) } else { 0.0 }
 }
 

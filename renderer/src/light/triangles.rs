@@ -8,7 +8,7 @@ use super::texels::{FLOOR, luminance_at};
 use super::triangle::Seen;
 use super::{Drawn, LightTriangle};
 use crate::sampling::Distribution1d;
-use crate::texture::Textures;
+use crate::texture::{TexturePoint, Textures};
 
 /// Look-ups of one triangle, and of a whole mesh.
 const LOOK_UPS: [usize; 2] = [64, 4_000_000];
@@ -62,12 +62,11 @@ impl Triangles {
         let point = Seen::new(p, corners)?.draw(u.x, u.y);
         let [a, b, c] = point.bary;
         let d = a * (corners[0] - p) + b * (corners[1] - p) + c * (corners[2] - p);
-        let [uv_a, uv_b, uv_c] = triangle.uvs;
         Some(Drawn {
             wi: d.try_normalize()?,
             distance: d.length(),
             pdf: triangles.pmf(index) * point.pdf,
-            uv: a as f32 * uv_a + b as f32 * uv_b + c as f32 * uv_c,
+            uv: texture_point(triangle, [a, b, c]),
             prim: triangle.prim,
         })
     }
@@ -80,6 +79,17 @@ impl Triangles {
             Some(seen) => choice.pmf(index) * seen.pdf(q.distance(p)),
             None => 0.0,
         }
+    }
+}
+
+/// Where textures are looked up at a point, by the weights of its corners.
+fn texture_point(triangle: &LightTriangle, [a, b, c]: [f64; 3]) -> TexturePoint {
+    let [uv_a, uv_b, uv_c] = triangle.uvs;
+    let (second, third) = if triangle.turned { (c, b) } else { (b, c) };
+    TexturePoint {
+        uv: a as f32 * uv_a + b as f32 * uv_b + c as f32 * uv_c,
+        prim: triangle.prim,
+        bary: DVec2::new(second, third).as_vec2(),
     }
 }
 
@@ -101,7 +111,7 @@ fn triangle_mean(triangle: &LightTriangle, emission: Color, textures: &Textures,
         if s + t > 1.0 {
             (s, t) = (1.0 - s, 1.0 - t);
         }
-        luminance_at(emission, textures, (a + s * (b - a) + t * (c - a)).as_vec2())
+        luminance_at(emission, textures, texture_point(triangle, [1.0 - s - t, s, t]))
     });
     values.sum::<f64>() / count as f64
 }

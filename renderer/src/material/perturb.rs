@@ -1,15 +1,15 @@
 //! What normal and bump maps do to the shading normal.
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use limpid_scenes::{NormalMap, Scalar};
 
 use super::flatten::Map;
 use crate::bsdf::Perturbation;
-use crate::texture::Textures;
+use crate::texture::{TexturePoint, Textures};
 
 /// A hit as a map sees it; directions are in the frame of the shading normal whose x axis leans towards ∂p/∂u.
 pub struct Perturbed {
-    pub uv: Vec2,
+    pub uv: TexturePoint,
     pub wo: Vec3,
     /// Geometric normal.
     pub ng: Vec3,
@@ -33,7 +33,7 @@ impl Perturbed {
     /// The normal of the surface displaced by the height along its normal, whose own change over the surface is left
     /// out (Blinn 1978); on the side of the geometric normal.
     fn bumped(&self, height: Scalar, scale: f32, textures: &Textures) -> Vec3 {
-        let gradient = textures.gradient(height, self.uv) * scale;
+        let gradient = textures.gradient(height, self.uv.uv) * scale;
         let [du, dv] = self.dp_duv;
         let n = Vec3::new(du.x, du.y, gradient.x).cross(Vec3::new(dv.x, dv.y, gradient.y));
         if n.dot(self.ng) < 0.0 { -n } else { n }

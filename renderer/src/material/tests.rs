@@ -1,4 +1,4 @@
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use super::*;
 use crate::testing::{camera, diffuse, scene};
@@ -47,7 +47,7 @@ fn of(kinds: Vec<MaterialKind>) -> (Scene, Result<Materials, PrepareError>) {
 }
 
 fn seen(id: u32, behind: bool) -> At {
-    At { material: MaterialId(id), uv: Vec2::ZERO, behind }
+    At { material: MaterialId(id), uv: Vec2::ZERO.into(), behind }
 }
 
 #[test]
@@ -261,7 +261,7 @@ fn textures_reach_every_number_of_the_new_models() {
             scene.textures = boards.map(board).to_vec();
             let (materials, textures) = (Materials::prepare(&scene).unwrap(), Textures::prepare(&scene));
             let side = materials.side(seen(0, false));
-            let at = |u| materials.at(&side.pieces[0].model, Vec2::new(u, 0.25), &textures);
+            let at = |u| materials.at(&side.pieces[0].model, Vec2::new(u, 0.25).into(), &textures);
             let has_numbers = !matches!(kind, MaterialKind::ThinDielectric { .. });
             assert_eq!(at(0.25) != at(0.75), has_numbers || boards[0] == 0.1, "model {i}, {boards:?}");
         }

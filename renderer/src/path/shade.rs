@@ -151,7 +151,7 @@ impl Scattering {
             Frame::around(surface.ns)
         };
         let wo = frame.to_local(-ray.d);
-        let at = At { material, uv: surface.uv, behind: wo.z < 0.0 };
+        let at = At { material, uv: surface.into(), behind: wo.z < 0.0 };
         let hole = scene.materials.hole(at, &scene.textures);
         Self { frame, wo, hole, at }
     }
@@ -172,7 +172,7 @@ impl Scattering {
                 NormalMap::Bump { .. } => counters.bump_maps += 1,
             }
             let dp_duv = scene.geometry.dp_duv(surface).map(|d| frame.to_local(d));
-            let hit = Perturbed { uv: surface.uv, wo, ng: frame.to_local(surface.ng), dp_duv };
+            let hit = Perturbed { uv: surface.into(), wo, ng: frame.to_local(surface.ng), dp_duv };
             hit.by(map, over, &scene.textures)
         };
         scene.materials.add_lobes(at, hole, &scene.textures, perturbed, lobes);

@@ -1,12 +1,16 @@
 //! Texture look-ups.
 
+mod attribute;
 mod bitmap;
 mod checkerboard;
 
 use glam::{DMat3, DVec2, Vec2};
 use limpid_scenes::{Color, Scalar, Scene, TextureId, TextureKind};
 
+use crate::accel::NONE;
 use crate::color::{Rgb, luminance};
+use crate::geometry::Surface;
+use attribute::Attribute;
 use bitmap::Bitmap;
 pub use bitmap::texel;
 use checkerboard::Checkerboard;
@@ -25,6 +29,34 @@ struct Texture {
 enum Kind {
     Bitmap(Bitmap),
     Checkerboard(Checkerboard),
+    Attribute(Attribute),
+    Scaled(Color, Rgb),
+}
+
+/// Where a texture is looked up.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturePoint {
+    /// Texture coordinates of the surface.
+    pub uv: Vec2,
+    /// The primitive, or [`NONE`]: attributes of meshes are black there.
+    pub prim: u32,
+    /// Barycentric coordinates of the second and third vertex of a triangle.
+    pub bary: Vec2,
+}
+
+impl From<Vec2> for TexturePoint {
+    /// A point of no surface.
+    #[inline]
+    fn from(uv: Vec2) -> Self {
+        Self { uv, prim: NONE, bary: Vec2::ZERO }
+    }
+}
+
+impl From<&Surface> for TexturePoint {
+    #[inline]
+    fn from(surface: &Surface) -> Self {
+        Self { uv: surface.uv, prim: surface.prim, bary: surface.bary }
+    }
 }
 
 /// Textures in textures in textures: deeper ones are black. No sane scene gets there, a cyclic one would not end.
@@ -38,7 +70,10 @@ impl Textures {
                 TextureKind::Bitmap { image, filter, wrap } => {
                     Kind::Bitmap(Bitmap { image: image.clone(), filter: *filter, wrap: *wrap })
                 }
-                TextureKind::MeshAttribute { .. } | TextureKind::Scaled { .. } => todo!(),
+                TextureKind::MeshAttribute { name, scale } => {
+                    Kind::Attribute(Attribute::new(scene, name, *scale))
+                }
+                TextureKind::Scaled { color, factor } => Kind::Scaled(*color, (*factor).into()),
                 TextureKind::Checkerboard { color0, color1 } => {
                     Kind::Checkerboard(Checkerboard { colors: [*color0, *color1] })
                 }
@@ -48,29 +83,37 @@ impl Textures {
         Self { textures: textures.collect() }
     }
 
-    /// The colour at a surface's `uv`. Non-finite texels come through as they are; a non-finite `uv` counts as 0.
+    /// The colour at a point. Non-finite texels come through as they are; a non-finite `uv` counts as 0.
     #[inline]
-    pub fn color(&self, color: Color, uv: Vec2) -> Rgb {
-        self.color_at(color, uv.as_dvec2(), DEEPEST)
+    pub fn color(&self, color: Color, at: impl Into<TexturePoint>) -> Rgb {
+        self.color_at(color, &at.into(), DEEPEST)
     }
 
-    /// The number at a surface's `uv`: the luminance of a colour texture.
+    /// The number at a point: the luminance of a colour texture.
     #[inline]
-    pub fn scalar(&self, scalar: Scalar, uv: Vec2) -> f32 {
+    pub fn scalar(&self, scalar: Scalar, at: impl Into<TexturePoint>) -> f32 {
         match scalar {
             Scalar::Constant(x) => x,
-            Scalar::Texture(id) => luminance(self.look_up(id, uv.as_dvec2(), DEEPEST)),
+            Scalar::Texture(id) => luminance(self.look_up(id, &at.into(), DEEPEST)),
         }
     }
 
     /// ∂/∂(u, v) of the number at a surface's `uv`: of what is interpolated between texels; else 0.
     pub fn gradient(&self, scalar: Scalar, uv: Vec2) -> Vec2 {
-        let Scalar::Texture(id) = scalar else { return Vec2::ZERO };
+        let Scalar::Texture(mut id) = scalar else { return Vec2::ZERO };
+        let mut scale = Rgb::ONE;
+        for _ in 0..DEEPEST {
+            match self.textures.get(id.0 as usize).map(|texture| &texture.kind) {
+                Some(Kind::Scaled(Color::Texture(inner), factor)) => (id, scale) = (*inner, scale * *factor),
+                _ => break,
+            }
+        }
         let Some(texture) = self.textures.get(id.0 as usize) else { return Vec2::ZERO };
         let m = texture.uv_from_surface;
         let Kind::Bitmap(bitmap) = &texture.kind else { return Vec2::ZERO };
-        let [ds, dt] =
-            bitmap.gradient((m * uv.as_dvec2().extend(1.0)).truncate()).map(luminance).map(f64::from);
+        let [ds, dt] = bitmap
+            .gradient((m * uv.as_dvec2().extend(1.0)).truncate())
+            .map(|slope| f64::from(luminance(slope * scale)));
         let gradient =
             DVec2::new(ds * m.x_axis.x + dt * m.x_axis.y, ds * m.y_axis.x + dt * m.y_axis.y).as_vec2();
         if gradient.is_finite() { gradient } else { Vec2::ZERO }
@@ -94,6 +137,8 @@ impl Textures {
                 let [a, b] = checkerboard.colors.map(|color| self.detail_at(color, depth - 1));
                 (DVec2::splat(2.0), a.max(b))
             }
+            Kind::Attribute(_) => return DVec2::ZERO,
+            Kind::Scaled(color, _) => return self.detail_at(*color, depth - 1),
         };
         let m = texture.uv_from_surface;
         let along = |axis: DVec2| (axis.abs() * size).max_element();
@@ -101,22 +146,24 @@ impl Textures {
     }
 
     #[inline]
-    fn color_at(&self, color: Color, uv: DVec2, depth: u32) -> Rgb {
+    fn color_at(&self, color: Color, at: &TexturePoint, depth: u32) -> Rgb {
         match color {
             Color::Constant(c) => c.into(),
-            Color::Texture(id) => self.look_up(id, uv, depth),
+            Color::Texture(id) => self.look_up(id, at, depth),
         }
     }
 
-    fn look_up(&self, id: TextureId, uv: DVec2, depth: u32) -> Rgb {
+    fn look_up(&self, id: TextureId, at: &TexturePoint, depth: u32) -> Rgb {
         let Some(texture) = self.textures.get(id.0 as usize).filter(|_| depth > 0) else {
             return Rgb::ZERO;
         };
-        let uv_texture = (texture.uv_from_surface * uv.extend(1.0)).truncate();
+        let uv_texture = (texture.uv_from_surface * at.uv.as_dvec2().extend(1.0)).truncate();
         match &texture.kind {
             Kind::Bitmap(bitmap) => bitmap.color(uv_texture),
             // The colours have mappings of their own, from the surface's uv.
-            Kind::Checkerboard(checkerboard) => self.color_at(checkerboard.color(uv_texture), uv, depth - 1),
+            Kind::Checkerboard(checkerboard) => self.color_at(checkerboard.color(uv_texture), at, depth - 1),
+            Kind::Attribute(attribute) => attribute.color(at),
+            Kind::Scaled(color, factor) => self.color_at(*color, at, depth - 1) * *factor,
         }
     }
 }

@@ -1,6 +1,8 @@
 use std::sync::Arc;
 
-use limpid_scenes::{Image, Place, TexelFilter, Texels, WrapMode};
+use limpid_scenes::{
+    AttributeDomain, Image, Mesh, MeshAttribute, Place, ShapeKind, TexelFilter, Texels, WrapMode,
+};
 
 use super::*;
 
@@ -35,7 +37,7 @@ const POINTS: [[f32; 2]; 8] =
 
 fn assert_colors(textures: &Textures, truth: [[f32; 3]; 8], what: &str) {
     for (uv, truth) in POINTS.into_iter().zip(truth) {
-        let color = textures.color(FIRST, uv.into());
+        let color = textures.color(FIRST, Vec2::from(uv));
         assert!(color.abs_diff_eq(truth.into(), 1e-5), "{what} at {uv:?}: {color}, not {truth:?}");
     }
 }
@@ -150,5 +152,79 @@ fn nonfinite_texels_come_through_and_nonfinite_coordinates_do_not() {
                 }
             }
         }
+    }
+}
+
+fn attribute(name: &str, domain: AttributeDomain, channels: u32, values: &[f32]) -> MeshAttribute {
+    MeshAttribute { name: name.into(), domain, channels, values: values.to_vec() }
+}
+
+/// A scene whose second shape is a mesh of two triangles with attributes, and again in a group.
+fn with_attributes(kinds: Vec<TextureKind>) -> Textures {
+    let mesh = Arc::new(Mesh {
+        positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        triangles: vec![[0, 1, 2], [3, 0, 2]],
+        attributes: vec![
+            attribute(
+                "vertex_color",
+                AttributeDomain::Vertex,
+                3,
+                &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 4.0, 4.0, 4.0],
+            ),
+            attribute("vertex_w", AttributeDomain::Vertex, 1, &[1.0, 2.0, 3.0, 4.0]),
+            attribute("face_color", AttributeDomain::Face, 3, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
+            attribute("face_w", AttributeDomain::Face, 1, &[5.0, 6.0]),
+        ],
+        ..Mesh::default()
+    });
+    let mut scene = limpid_testkit::scene::scene(
+        limpid_testkit::scene::camera(glam::DVec3::ZERO, glam::DVec3::X, 1, 1),
+        Vec::new(),
+    );
+    let place = || Place::default();
+    scene.textures = (kinds.into_iter())
+        .map(|kind| limpid_scenes::Texture {
+            name: "t".into(),
+            kind,
+            uv_from_surface: DMat3::IDENTITY,
+            place: place(),
+        })
+        .collect();
+    let mut add = |kind| limpid_testkit::scene::add(&mut scene, kind, glam::DMat4::IDENTITY, 0).clone();
+    add(ShapeKind::Cube);
+    let shape = add(ShapeKind::Mesh(mesh));
+    add(ShapeKind::Rectangle);
+    let sphere = add(ShapeKind::Disk);
+    scene.groups.push(limpid_scenes::Group { name: "g".into(), shapes: vec![sphere, shape], place: place() });
+    Textures::prepare(&scene)
+}
+
+#[test]
+fn attributes_are_those_of_the_mesh_that_is_hit() {
+    let named = |name: &str, scale| TextureKind::MeshAttribute { name: name.into(), scale };
+    let textures = with_attributes(vec![
+        named("vertex_color", 1.0),
+        named("vertex_w", 0.5),
+        named("face_color", 1.0),
+        named("face_w", 1.0),
+        TextureKind::Scaled { color: Color::Texture(TextureId(2)), factor: [10.0, 0.0, 1.0] },
+        named("face_none", 1.0),
+    ]);
+    let at = |texture, prim| {
+        let point = TexturePoint { uv: Vec2::ZERO, prim, bary: Vec2::new(0.25, 0.5) };
+        textures.color(Color::Texture(TextureId(texture)), point)
+    };
+    // The cube has 12 triangles, the mesh 12 and 13, the square 14 and 15, the mesh in the group 16 and 17.
+    for first in [12, 16] {
+        assert_eq!(at(0, first), Rgb::new(0.25, 0.25, 0.5));
+        assert_eq!(at(0, first + 1), Rgb::new(1.25, 1.0, 1.5));
+        assert_eq!(at(1, first), Rgb::splat(0.5 * (0.25 + 0.5 + 1.5)));
+        assert_eq!(at(2, first + 1), Rgb::new(0.4, 0.5, 0.6));
+        assert_eq!(at(3, first), Rgb::splat(5.0));
+        assert_eq!(at(4, first), Rgb::new(1.0, 0.0, 0.3));
+        assert_eq!(at(5, first), Rgb::ZERO);
+    }
+    for prim in [0, 11, 14, 15, 18, NONE] {
+        assert_eq!(at(0, prim), Rgb::ZERO, "{prim}");
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ::image::ImageEncoder;
 
 use super::{ExportError, Writer};
-use crate::{Image, Mesh, Texels};
+use crate::{AttributeDomain, Image, Mesh, MeshAttribute, Texels};
 
 impl Writer<'_> {
     /// The file of a mesh; with `turned` its triangles run the other way round.
@@ -49,13 +49,28 @@ fn ply(mesh: &Mesh, turned: bool) -> Vec<u8> {
     if has_uvs {
         properties.extend(["u", "v"]);
     }
+    let columns = |domain: AttributeDomain| {
+        let of_domain: Vec<&MeshAttribute> = mesh.attributes.iter().filter(|a| a.domain == domain).collect();
+        let names = of_domain.iter().flat_map(|attribute| {
+            let stem = attribute.name.split_once('_').map_or("", |(_, stem)| stem);
+            (0..attribute.channels).map(move |i| format!("property float {stem}_{i}\n"))
+        });
+        (names.collect::<String>(), of_domain)
+    };
+    let (of_vertices, vertex_attributes) = columns(AttributeDomain::Vertex);
+    let (of_faces, face_attributes) = columns(AttributeDomain::Face);
+    let row = |attribute: &MeshAttribute, i: usize| {
+        let channels = attribute.channels as usize;
+        i * channels..(i + 1) * channels
+    };
     let mut header =
         format!("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.len());
     for property in &properties {
         header += &format!("property float {property}\n");
     }
+    header += &of_vertices;
     header += &format!(
-        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        "element face {}\nproperty list uchar int vertex_indices\n{of_faces}end_header\n",
         mesh.triangles.len()
     );
     let mut bytes = header.into_bytes();
@@ -69,12 +84,15 @@ fn ply(mesh: &Mesh, turned: bool) -> Vec<u8> {
         if has_uvs {
             put(&mesh.uvs[i]);
         }
+        vertex_attributes.iter().for_each(|a| put(&a.values[row(a, i)]));
     }
-    for &[a, b, c] in &mesh.triangles {
+    for (i, &[a, b, c]) in mesh.triangles.iter().enumerate() {
         bytes.push(3);
         for index in if turned { [a, c, b] } else { [a, b, c] } {
             bytes.extend((index as i32).to_le_bytes());
         }
+        let values = face_attributes.iter().flat_map(|a| &a.values[row(a, i)]);
+        values.for_each(|v| bytes.extend(v.to_le_bytes()));
     }
     bytes
 }

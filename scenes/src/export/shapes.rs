@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DMat4, DVec3};
 
 use super::{ExportError, Writer};
-use crate::{Mesh, Shape, ShapeKind};
+use crate::{Group, Mesh, Shape, ShapeKind};
 
 /// Cells around and from pole to pole of an ellipsoid that Mitsuba has no shape for: its silhouette is off by less
 /// than 2e-5 of its radius.
@@ -19,6 +19,28 @@ impl Writer<'_> {
             ShapeKind::Rectangle => self.plain(shape, "rectangle", to_world, |_| {}),
             ShapeKind::Cube => self.plain(shape, "cube", to_world, |_| {}),
             ShapeKind::Disk => self.plain(shape, "disk", to_world, |_| {}),
+            ShapeKind::Cylinder { p0, p1, radius } => {
+                if !keeps_round(to_world, *p1 - *p0) {
+                    self.notes.push(format!(
+                        "shape \"{}\": a cylinder that is not round, which Mitsuba distorts",
+                        shape.name
+                    ));
+                }
+                self.plain(shape, "cylinder", to_world, |xml| {
+                    xml.point("p0", *p0);
+                    xml.point("p1", *p1);
+                    xml.float("radius", *radius);
+                })
+            }
+            ShapeKind::Instance { group } => {
+                let id = self.id(&shape.name);
+                self.xml.open("shape", &[("type", "instance"), ("id", &id)]);
+                let group = self.groups[group.0 as usize].clone();
+                self.xml.leaf("ref", &[("id", &group)]);
+                self.xml.transform("to_world", to_world);
+                self.xml.close("shape");
+                Ok(())
+            }
             ShapeKind::Sphere { center, radius } => match scale_of(to_world) {
                 Some(scale) => {
                     let rotation = DMat3::from_mat4(to_world) * (1.0 / scale);
@@ -42,6 +64,18 @@ impl Writer<'_> {
                 }
             },
         }
+    }
+
+    /// A group with its shapes, for the instances that follow.
+    pub(super) fn group(&mut self, group: &Group) -> Result<(), ExportError> {
+        let id = self.id(&group.name);
+        self.xml.open("shape", &[("type", "shapegroup"), ("id", &id)]);
+        for shape in &group.shapes {
+            self.shape(shape)?;
+        }
+        self.xml.close("shape");
+        self.groups.push(id);
+        Ok(())
     }
 
     fn plain(
@@ -101,6 +135,15 @@ fn scale_of(m: DMat4) -> Option<f64> {
     let off = rotation * rotation.transpose() - DMat3::IDENTITY;
     let largest = off.to_cols_array().iter().fold(0.0f64, |l, x| l.max(x.abs()));
     (scale > 0.0 && largest < 1e-6).then_some(scale)
+}
+
+/// Whether a map leaves a cylinder around `axis` round and its ends square.
+fn keeps_round(m: DMat4, axis: DVec3) -> bool {
+    let n = axis.normalize_or(DVec3::Z);
+    let (x, y) = n.any_orthonormal_pair();
+    let [x, y, n] = [x, y, n].map(|v| m.transform_vector3(v));
+    let off = |a: DVec3, b: DVec3| (a.dot(b) / (a.length() * b.length())).abs();
+    off(x, y).max(off(x, n)).max(off(y, n)).max((x.length() / y.length() - 1.0).abs()) < 1e-6
 }
 
 /// The unit sphere in triangles, with the normals and texture coordinates of the analytic one.

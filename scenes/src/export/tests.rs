@@ -2,7 +2,7 @@ use std::fs;
 use std::path::Path;
 
 use super::*;
-use crate::{LoadOptions, Warning, load, load_str};
+use crate::{LoadOptions, ShapeKind, Warning, load, load_str};
 
 /// Exports into a folder and reads the result back.
 fn there_and_back(scene: &Scene) -> (Scene, Exported) {
@@ -281,4 +281,36 @@ fn lights_and_cameras_come_back_as_they_were() {
         direction.abs_diff_eq(-*towards, 1e-9) && exported.notes[0].contains("sunsky 5.sun"),
         "{exported:?}"
     );
+}
+
+#[test]
+fn groups_cylinders_and_attributes_come_back_as_they_were() {
+    let folder = tempfile::tempdir().unwrap();
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        property float color_0\nproperty float color_1\nproperty float color_2\nelement face 1\n\
+        property list uchar int vertex_indices\nproperty float w_0\nend_header\n0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2 7\n";
+    fs::write(folder.path().join("m.ply"), ply).unwrap();
+    let scene = r#"<scene version="3.0.0"><sensor type="perspective"/>
+<shape type="shapegroup" id="g"><shape type="ply"><string name="filename" value="m.ply"/><bsdf type="diffuse">
+    <texture type="scale" name="reflectance"><float name="scale" value="0.5"/>
+    <texture type="mesh_attribute"><string name="name" value="vertex_color"/></texture></texture></bsdf></shape></shape>
+<shape type="instance"><ref id="g"/><transform name="to_world"><translate x="2"/></transform></shape>
+<shape type="cylinder"><point name="p0" x="1"/><point name="p1" x="2"/><float name="radius" value="3"/></shape></scene>"#;
+    fs::write(folder.path().join("scene.xml"), scene).unwrap();
+    let scene = load(&folder.path().join("scene.xml"), &LoadOptions::default()).unwrap();
+    let (again, exported) = there_and_back(&scene);
+    assert!(
+        exported.notes.is_empty() && again.warnings.is_empty(),
+        "{:?} {:?}",
+        exported.notes,
+        again.warnings
+    );
+    let kinds = |scene: &Scene| {
+        let ShapeKind::Mesh(mesh) = &scene.groups[0].shapes[0].kind else { unreachable!("it is a mesh") };
+        format!("{:?} {:?} {:?}", mesh.attributes, scene.shapes[0].kind, scene.shapes[1].kind)
+    };
+    assert_eq!(kinds(&again), kinds(&scene));
+    assert_eq!(again.shapes[0].world_from_object, scene.shapes[0].world_from_object);
+    let attribute = again.textures.iter().map(|texture| format!("{:?}", texture.kind)).collect::<String>();
+    assert_eq!(attribute, r#"MeshAttribute { name: "vertex_color", scale: 0.5 }"#);
 }

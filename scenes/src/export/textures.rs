@@ -1,9 +1,12 @@
 //! Colours and numbers, constant or from a `<texture>`.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DMat4};
 
 use super::{ExportError, Writer};
-use crate::{Color, Scalar, TexelFilter, TextureId, TextureKind, WrapMode};
+use crate::spectrum::linear_from_srgb;
+use crate::{Color, Image, Rgb, Scalar, TexelFilter, Texels, TextureId, TextureKind, WrapMode};
 
 impl Writer<'_> {
     /// A colour as the parameter `name`.
@@ -30,10 +33,29 @@ impl Writer<'_> {
 
     /// A texture, written in full wherever it is used: Mitsuba shares nothing between two uses but the file.
     pub(super) fn texture(&mut self, name: &str, id: TextureId) -> Result<(), ExportError> {
+        self.scaled_texture(name, id, [1.0; 3])
+    }
+
+    /// A colour times a factor, which Mitsuba has no texture for: the factor goes into what is scaled.
+    fn scaled_color(&mut self, name: &str, color: Color, factor: Rgb) -> Result<(), ExportError> {
+        match color {
+            Color::Constant(rgb) => self.color(name, Color::Constant(times(rgb, factor))),
+            Color::Texture(texture) => self.scaled_texture(name, texture, factor),
+        }
+    }
+
+    fn scaled_texture(&mut self, name: &str, id: TextureId, factor: Rgb) -> Result<(), ExportError> {
         let texture = &self.scene.textures[id.0 as usize];
         match &texture.kind {
             TextureKind::Bitmap { image, filter, wrap } => {
-                let (file, raw) = self.image(image)?;
+                let (file, raw) = match factor {
+                    [1.0, 1.0, 1.0] => self.image(image)?,
+                    _ => {
+                        let image = Arc::new(scaled_image(image, factor));
+                        self.scaled.push(Arc::clone(&image));
+                        self.image(&image)?
+                    }
+                };
                 self.xml.open("texture", &[("type", "bitmap"), ("name", name)]);
                 self.xml.value("string", "filename", &file);
                 if raw {
@@ -53,14 +75,46 @@ impl Writer<'_> {
             }
             TextureKind::Checkerboard { color0, color1 } => {
                 self.xml.open("texture", &[("type", "checkerboard"), ("name", name)]);
-                self.color("color0", *color0)?;
-                self.color("color1", *color1)?;
+                self.scaled_color("color0", *color0, factor)?;
+                self.scaled_color("color1", *color1, factor)?;
+            }
+            TextureKind::Scaled { color, factor: inner } => {
+                return self.scaled_color(name, *color, times(factor, *inner));
+            }
+            TextureKind::MeshAttribute { name: attribute, scale } => {
+                if factor[1] != factor[0] || factor[2] != factor[0] {
+                    self.notes.push(format!(
+                        "texture \"{}\": the tint of a mesh attribute is left out: Mitsuba scales one by a number",
+                        texture.name
+                    ));
+                }
+                self.xml.open("texture", &[("type", "mesh_attribute"), ("name", name)]);
+                self.xml.value("string", "name", attribute);
+                self.xml.float("scale", scale * factor[1]);
+                self.xml.close("texture");
+                return Ok(());
             }
         }
         self.xml.transform("to_uv", matrix4(texture.uv_from_surface));
         self.xml.close("texture");
         Ok(())
     }
+}
+
+fn times(a: Rgb, b: Rgb) -> Rgb {
+    [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
+}
+
+/// A picture with every texel times a factor, in linear values.
+fn scaled_image(image: &Image, factor: Rgb) -> Image {
+    let byte = |v: u8| f32::from(v) / 255.0;
+    let linear: Vec<f32> = match &image.texels {
+        Texels::Srgb8(bytes) => bytes.iter().map(|&v| linear_from_srgb(byte(v))).collect(),
+        Texels::Linear8(bytes) => bytes.iter().map(|&v| byte(v)).collect(),
+        Texels::Linear32(values) => values.clone(),
+    };
+    let scaled = linear.iter().zip(factor.iter().cycle()).map(|(v, f)| v * f).collect();
+    Image { texels: Texels::Linear32(scaled), ..*image }
 }
 
 /// The 4×4 matrix whose x, y and translation are those of a map of the plane.

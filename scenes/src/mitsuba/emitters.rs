@@ -125,17 +125,20 @@ impl Reader<'_> {
         Ok(LightKind::Spot { world_from_light: frame(object)?, intensity, cutoff_deg, beam_deg, texture })
     }
 
+    /// Width and height of the picture behind a colour; what has no pixels is square.
+    fn pixels(&self, color: Color) -> [u32; 2] {
+        let Color::Texture(id) = color else { return [1, 1] };
+        match &self.scene.textures[id.0 as usize].kind {
+            TextureKind::Bitmap { image, .. } => [image.width, image.height],
+            TextureKind::Scaled { color, .. } => self.pixels(*color),
+            TextureKind::Checkerboard { .. } | TextureKind::MeshAttribute { .. } => [1, 1],
+        }
+    }
+
     fn projector(&mut self, object: &Object<'_>) -> Result<LightKind, SceneError> {
         let (fov_deg, fov_axis) = super::camera::field_of_view(object)?;
         let irradiance = self.color(object, "irradiance", Quantity::Radiance, WHITE)?;
-        // what has no pixels is square
-        let [width, height] = match irradiance {
-            Color::Texture(id) => match &self.scene.textures[id.0 as usize].kind {
-                TextureKind::Bitmap { image, .. } => [image.width, image.height],
-                TextureKind::Checkerboard { .. } => [1, 1],
-            },
-            Color::Constant(_) => [1, 1],
-        };
+        let [width, height] = self.pixels(irradiance);
         Ok(LightKind::Projector {
             world_from_light: frame(object)?,
             irradiance,

@@ -87,3 +87,54 @@ fn samples_are_confirmed_by_rays() {
         }
     }
 }
+
+#[test]
+fn emission_by_an_attribute_is_the_same_drawn_and_hit() {
+    let values = vec![1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    let name = String::from("vertex_color");
+    let attribute = limpid_scenes::MeshAttribute {
+        name: name.clone(),
+        domain: limpid_scenes::AttributeDomain::Vertex,
+        channels: 3,
+        values,
+    };
+    let mesh = limpid_scenes::Mesh {
+        positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        triangles: vec![[0, 1, 2]],
+        attributes: vec![attribute],
+        ..Default::default()
+    };
+    for flip in [false, true] {
+        let black = MaterialKind::Diffuse { reflectance: Color::Constant([0.0; 3]) };
+        let mut scene = scene(camera(DVec3::ZERO, DVec3::X, 1, 1), vec![black]);
+        scene.textures.push(limpid_scenes::Texture {
+            name: "t".into(),
+            kind: limpid_scenes::TextureKind::MeshAttribute { name: name.clone(), scale: 2.0 },
+            uv_from_surface: DMat3::IDENTITY,
+            place: Place::default(),
+        });
+        let shape = add(&mut scene, ShapeKind::Mesh(std::sync::Arc::new(mesh.clone())), DMat4::IDENTITY, 0);
+        let emission = limpid_scenes::Emission {
+            name: None,
+            radiance: Color::Texture(TextureId(0)),
+            place: Place::default(),
+        };
+        (shape.emission, shape.flip_normals) = (Some(emission), flip);
+        let prepared = Prepared::new(&scene, 0).expect("nothing is missing");
+        let p = Vec3::new(0.3, 0.3, if flip { -0.5 } else { 0.5 });
+        for i in 0..200 {
+            let (choice, u) = numbers(Sampler::Sobol, i);
+            let s = prepared.lights.sample(p, choice, u, &prepared.textures).expect("it emits towards p");
+            let (ray, mut hit) = (Ray::new(p, s.wi), [Hit::MISS]);
+            prepared.accel.closest(&[ray], &mut hit);
+            if hit[0].prim == MISSED {
+                continue; // at an edge, by rounding
+            }
+            let surface = prepared.geometry.surface(&ray, &hit[0]);
+            let (radiance, _) = prepared.lights.hit(LightId(0), p, &surface, s.wi, &prepared.textures);
+            assert!(radiance.abs_diff_eq(s.radiance, 1e-4), "{flip}: {radiance}, not {}", s.radiance);
+            // Red, green and blue are the barycentric coordinates, and these the place.
+            assert!((radiance.y - 2.0 * surface.p.x).abs() < 1e-4, "{flip}: {radiance} at {}", surface.p);
+        }
+    }
+}
