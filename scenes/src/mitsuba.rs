@@ -33,7 +33,8 @@ use crate::mesh::{LoadedMesh, MeshOptions};
 use crate::nearest::suggest;
 use crate::spectrum::Quantity;
 use crate::{
-    Color, GroupId, Image, LoadOptions, MaterialId, Medium, MediumId, Place, Rgb, Scene, SceneError, Warning,
+    Color, GroupId, Image, LoadOptions, MaterialId, Medium, MediumId, Place, Rgb, Scene, SceneError,
+    ShapeKind, TextureKind, Warning,
 };
 
 /// Objects inside one another through references. Real files have about 4.
@@ -142,10 +143,35 @@ impl<'d> Reader<'d> {
                 }
             }
         }
+        self.check_attributes();
         if self.scene.cameras.is_empty() {
             self.default_camera();
         }
         Ok(())
+    }
+
+    /// Warns of textures that name an attribute which no mesh has.
+    fn check_attributes(&mut self) {
+        let in_groups = self.scene.groups.iter().flat_map(|group| &group.shapes);
+        let names: HashSet<&str> = (self.scene.shapes.iter().chain(in_groups))
+            .filter_map(|shape| match &shape.kind {
+                ShapeKind::Mesh(mesh) => Some(&mesh.attributes),
+                _ => None,
+            })
+            .flat_map(|attributes| attributes.iter().map(|attribute| attribute.name.as_str()))
+            .collect();
+        for texture in &self.scene.textures {
+            if let TextureKind::MeshAttribute { name, .. } = &texture.kind
+                && !names.contains(name.as_str())
+            {
+                let (place, element) = (texture.place.clone(), format!("texture \"{}\"", texture.name));
+                let message = format!("no mesh of the scene has an attribute \"{name}\"; it is black");
+                self.warnings.push((
+                    ElementId(usize::MAX),
+                    Warning { place, element, message, unused_parameter: false },
+                ));
+            }
+        }
     }
 
     /// Adds a warning about an element.

@@ -100,8 +100,11 @@ impl Header {
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
         let mut at = 0;
+        // a lone carriage return ends the lines of old Macintosh files
+        let line_end =
+            if bytes.starts_with(b"ply\r") && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
         loop {
-            let Some(length) = bytes[at..].iter().position(|&byte| byte == b'\n') else {
+            let Some(length) = bytes[at..].iter().position(|&byte| byte == line_end) else {
                 return bad(at, "the header does not end", "the file is no PLY, or it is cut off");
             };
             let line = String::from_utf8_lossy(&bytes[at..at + length]);

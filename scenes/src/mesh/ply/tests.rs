@@ -100,6 +100,12 @@ fn faces_may_come_first_and_carry_more_columns() {
 }
 
 #[test]
+fn lines_may_end_as_on_old_macintoshes() {
+    let text = ascii(XYZ, CORNERS, INDICES, "3 0 1 2").replace('\n', "\r");
+    assert_eq!(load(text.as_bytes()).unwrap().mesh.triangles, [[0, 1, 2]]);
+}
+
+#[test]
 fn double_coordinates_far_away_keep_their_digits() {
     let double = XYZ.replace("float", "double");
     let text = ascii(&double, "1000000.125 0 0\n1000001.3 0 0\n1000000.125 1.1 0", INDICES, "3 0 1 2");

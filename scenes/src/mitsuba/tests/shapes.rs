@@ -125,6 +125,8 @@ fn textures_of_attributes_factors_and_constants_are_read() {
             "{texture}"
         );
     }
+    let black = "no mesh of the scene has an attribute \"vertex_color\"; it is black";
+    assert!(loaded(attribute).warnings.iter().any(|w| w.message == black));
     let error = try_load(r#"<texture type="mesh_attribute"><string name="name" value="color"/></texture>"#);
     assert!(error.unwrap_err().to_string().contains("begins with neither vertex_ nor face_"));
 }
