@@ -186,6 +186,7 @@ fn a_density_that_is_one_per_cent_off_is_found() {
         crosscheck(folder.path(), "floor.xml --against wrong.exr --against-variance wrong-variance.exr");
     assert_eq!((wrong.code, &answer["scenes"][0]["verdict"]), (1, &Value::from("differ")), "{answer}");
     let ratio = answer["scenes"][0]["mean_ratio"].as_f64().expect("is a number");
+    println!("density of the other x 1.01: p {}, mean ratio {ratio}", answer["scenes"][0]["p"]);
     assert!((ratio - 1.01).abs() < 0.002, "{ratio}");
 }
 
