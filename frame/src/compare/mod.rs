@@ -100,7 +100,7 @@ impl Comparison {
 
 /// Compares two pictures of the same size.
 ///
-/// With a second picture that comes in one piece (`Halves::One`) the weighted test is left out.
+/// With a first picture that comes in one piece (`Halves::One`) the weighted test is left out.
 ///
 /// # Panics
 ///

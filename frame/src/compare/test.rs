@@ -15,7 +15,7 @@ pub(super) struct Mean {
     pub mean: f64,
     /// Of the mean.
     pub var: f64,
-    /// Third cumulant of the mean.
+    /// Third cumulant of the mean; NaN where it is not known.
     pub third: f64,
     /// How well `var` is known.
     pub dof: f64,
@@ -80,11 +80,20 @@ pub(super) fn test(a: &Mean, b: &Mean, area: Area, channel: usize, quantiles: &m
     // Welch and Satterthwaite, in shares of the variance, whose squares cannot underflow.
     let (wa, wb) = (a.var / var, b.var / var);
     finding.dof = 1.0 / (wa * wa / a.dof + wb * wb / b.dof);
-    let skewness = (a.third - b.third) / (var * var.sqrt());
-    let skewness = if skewness.is_finite() { skewness } else { 0.0 };
     let error = var.sqrt();
     if beyond != 0.0 {
-        finding.p = skew_corrected_p(beyond / error, skewness, finding.dof);
+        let p = |third: f64| {
+            let skewness = third / (var * error);
+            let skewness = if skewness.is_finite() { skewness } else { 0.0 };
+            skew_corrected_p(beyond / error, skewness, finding.dof)
+        };
+        finding.p = match (a.third.is_nan(), b.third.is_nan()) {
+            (false, false) => p(a.third - b.third),
+            // The other's may be nothing, or cancel the known one: the more cautious of both.
+            (false, true) => p(a.third).max(p(0.0)),
+            (true, false) => p(-b.third).max(p(0.0)),
+            (true, true) => p(0.0),
+        };
     }
     let light = finding.brightness();
     let reach = (quantiles.two_sided(finding.dof) + normal_quantile(POWER)) * error;

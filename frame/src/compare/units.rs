@@ -99,12 +99,16 @@ impl Units {
                 }
             }
         }
-        let knows_third = b.knows_third();
+        let knows_third = [a, b].map(|picture| picture.knows_third());
         let mut means: Vec<[[Mean; 2]; 3]> = sums
             .iter()
             .zip(&pixels)
             .map(|(unit, &n)| unit.map(|channel| channel.map(|sums| mean_of(&sums, n))))
             .collect();
+        for pair in means.iter_mut().flatten() {
+            let unknown = pair.iter_mut().zip(knows_third).filter(|(_, known)| !known);
+            unknown.for_each(|(mean, _)| mean.third = f64::NAN);
+        }
         if let Some(around) = around {
             for (unit, means) in means.iter_mut().enumerate() {
                 let outer = around.grid.around(&grid, unit);
@@ -113,9 +117,6 @@ impl Units {
                     borrow(inner, outer, pixels[1] / pixels[0]);
                 }
             }
-        }
-        if !knows_third {
-            means.iter_mut().flatten().for_each(assume_third);
         }
         Self { grid, means, pixels }
     }
@@ -166,9 +167,12 @@ fn borrow(inner: &mut [Mean; 2], outer: &[Mean; 2], more: f64) {
     if !(scale.is_finite() && scale > 0.0 && more.is_finite()) {
         return;
     }
-    for (inner, outer) in inner.iter_mut().zip(outer) {
-        let skewness = outer.third / (outer.var * outer.var.sqrt());
-        let rare = skewness * skewness * more > 1.0 / EVENTS;
+    let skewness = |mean: &Mean| mean.third / (mean.var * mean.var.sqrt());
+    let others = skewness(&outer[0]);
+    for (i, (inner, outer)) in inner.iter_mut().zip(outer).enumerate() {
+        // One that does not know its own is taken to be as skewed as the other.
+        let known = if i == 1 && outer.third.is_nan() { others } else { skewness(outer) };
+        let rare = known * known * more > 1.0 / EVENTS;
         let var = outer.var * more * scale * scale;
         if rare && var > inner.var {
             inner.var = var;
@@ -176,11 +180,4 @@ fn borrow(inner: &mut [Mean; 2], outer: &[Mean; 2], more: f64) {
             inner.dof = outer.dof;
         }
     }
-}
-
-/// Where the second picture's third cumulant is not known, its samples are taken to be as skewed as the first's: at n
-/// samples the variance falls as 1/n, the third cumulant as 1/n².
-fn assume_third(pair: &mut [Mean; 2]) {
-    let ratio = pair[1].var / pair[0].var;
-    pair[1].third = if ratio.is_finite() { pair[0].third * ratio * ratio } else { 0.0 };
 }

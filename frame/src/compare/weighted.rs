@@ -14,35 +14,43 @@ pub(super) struct Weighted {
 }
 
 /// Weights for a half's blocks come from the other half, `w = light / (var_a + var_b)`, which is best for a bias that is
-/// the same fraction everywhere; being independent of what they weight, they leave every mean where it is.
+/// the same fraction everywhere; being independent of what they weight, they leave every mean where it is. Where the
+/// second picture comes in one piece, only the first one's halves make weights, and both weigh the piece.
 ///
-/// `None` where one of the pictures has no halves.
+/// `None` where the first picture has no halves.
 pub(super) fn test(a: &Halves, b: &Halves, sides: [usize; 2]) -> Option<Weighted> {
-    let (Halves::Two(a), Halves::Two(b)) = (a, b) else { return None };
-    let size = a[0].size;
-    let halves: Vec<Units> = (0..2)
-        .map(|h| {
-            let views = [View::Half(&a[h]), View::Half(&b[h])];
-            let outer = Units::of(Grid::of_blocks(size, sides[0]), views, None);
-            Units::of(Grid::of_blocks(size, sides[1]), views, Some(&outer))
-        })
-        .collect();
+    let Halves::Two(first) = a else { return None };
+    let size = a.size();
+    let second = |h: usize| match b {
+        Halves::Two(halves) => View::Half(&halves[h]),
+        Halves::One(_) => View::All(b),
+    };
+    let in_one_piece = matches!(b, Halves::One(_));
+    let halves: [Units; 2] = [0, 1].map(|h| {
+        let views = [View::Half(&first[h]), second(h)];
+        let outer = Units::of(Grid::of_blocks(size, sides[0]), views, None);
+        Units::of(Grid::of_blocks(size, sides[1]), views, Some(&outer))
+    });
+    let weight = |[a, b]: &[Mean; 2]| {
+        let (light, var) = if in_one_piece { (a.mean, a.var) } else { (a.mean.max(b.mean), a.var + b.var) };
+        let weight = light / (var + (KNOWN * light).powi(2));
+        if weight.is_finite() { [weight.max(0.0), light] } else { [0.0, 0.0] }
+    };
     let means = std::array::from_fn(|channel| {
-        let mut sums = [Sums::default(); 2];
-        let mut weights = 0.0;
-        for (h, other) in [(0, 1), (1, 0)] {
-            for (tested, known) in halves[h].means.iter().zip(&halves[other].means) {
-                let light = known[channel][0].mean.max(known[channel][1].mean);
-                let var = known[channel][0].var + known[channel][1].var;
-                let weight = light / (var + (KNOWN * light).powi(2));
-                if !(weight.is_finite() && weight > 0.0) {
-                    continue;
-                }
-                weights += weight * light;
-                sums.iter_mut().zip(&tested[channel]).for_each(|(sums, mean)| sums.push(mean, weight));
+        let (mut ours, mut theirs, mut total) = (Sums::default(), Sums::default(), 0.0);
+        for (one, other) in halves[0].means.iter().zip(&halves[1].means) {
+            let [[w0, light0], [w1, light1]] = [weight(&other[channel]), weight(&one[channel])];
+            total += w0 * light0 + w1 * light1;
+            ours.push(&one[channel][0], w0);
+            ours.push(&other[channel][0], w1);
+            if in_one_piece {
+                theirs.push(&one[channel][1], w0 + w1);
+            } else {
+                theirs.push(&one[channel][1], w0);
+                theirs.push(&other[channel][1], w1);
             }
         }
-        sums.map(|sums| sums.mean(weights))
+        [ours.mean(total), theirs.mean(total)]
     });
     Some(Weighted { means })
 }

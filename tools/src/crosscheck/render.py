@@ -64,78 +64,91 @@ def load(mi, job, notes):
     mi.parser.transform_upgrade(config, state)
     mi.parser.transform_resolve(config, state)
 
-    nodes, root = state.nodes, state.root
-    if root.type != mi.ObjectType.Scene:
+    if state.root.type != mi.ObjectType.Scene:
         raise ValueError("the file is no scene")
+    tree = Tree(mi, state)
+    types = mi.ObjectType
+    sensor = tree.child(0, types.Sensor)
+    if sensor is None:
+        raise ValueError("the scene has no sensor")
+    tree.reduce(tree.ensure(sensor, types.Sampler, "sampler"), "independent", ["sample_count"])
+    film = tree.ensure(sensor, types.Film, "film")
+    tree.reduce(tree.ensure(film, types.ReconstructionFilter, "rfilter"), "box", [])
+    keep = [name for name, _ in tree.nested(film)] + ["width", "height"]
+    if not job["size"]:
+        keep += ["crop_offset_x", "crop_offset_y", "crop_width", "crop_height"]
+    tree.reduce(film, "hdrfilm", keep)
+    changes = {"pixel_format": "rgb", "component_format": "float32"}
+    if job["size"]:
+        changes["width"], changes["height"] = job["size"]
+    for name, value in changes.items():
+        tree.props(film)[name] = value
 
-    def child(props, kind):
-        """(name, node) of the first nested object of a kind."""
-        for name, value in nested(mi, props):
-            node = nodes[value.index()]
-            if node.type == kind:
-                return name, node
-        return None, None
+    integrate(mi, tree, notes)
+    mi.parser.transform_all(config, state)
+    return mi.parser.instantiate(config, state)
 
-    def ensure(props, kind, name, plugin):
-        """That object, made where there is none."""
-        found = child(props, kind)[1]
+
+class Tree:
+    """The parsed scene, its objects by number: adding one moves the others in memory, so that nothing else may be kept
+    of them. The scene itself is number 0."""
+
+    def __init__(self, mi, state):
+        self.mi, self.state = mi, state
+
+    def props(self, i):
+        return self.state.nodes[i].props
+
+    def nested(self, i):
+        """(name, number) of the objects inside one."""
+        reference = self.mi.Properties.ResolvedReference
+        return [(name, value.index()) for name, value in self.props(i).items() if isinstance(value, reference)]
+
+    def child(self, i, kind):
+        """The first object of a kind inside one, or None."""
+        return next((child for _, child in self.nested(i) if self.state.nodes[child].type == kind), None)
+
+    def ensure(self, i, kind, name):
+        """That object, added where there is none."""
+        found = self.child(i, kind)
         if found is None:
-            found = mi.parser.SceneNode()
-            found.type = kind
-            found.props = mi.Properties(plugin)
-            nodes.append(found)
-            props[name] = mi.Properties.ResolvedReference(len(nodes) - 1)
-            found = nodes[len(nodes) - 1]
-        return found.props
+            node = self.mi.parser.SceneNode()
+            node.type = kind
+            self.state.nodes.append(node)
+            found = len(self.state.nodes) - 1
+            self.put(i, name, found)
+        return found
 
-    def reduce(props, plugin, keep):
+    def put(self, i, name, child):
+        self.props(i)[name] = self.mi.Properties.ResolvedReference(child)
+
+    def reduce(self, i, plugin, keep):
         """Another plugin, with those of its properties that are named."""
+        props = self.props(i)
         for name in list(props.keys()):
             if name not in keep:
                 del props[name]
         props.set_plugin_name(plugin)
 
-    types = mi.ObjectType
-    sensor = child(root.props, types.Sensor)[1]
-    if sensor is None:
-        raise ValueError("the scene has no sensor")
-    reduce(ensure(sensor.props, types.Sampler, "sampler", "independent"), "independent", ["sample_count"])
-    film = ensure(sensor.props, types.Film, "film", "hdrfilm")
-    reduce(ensure(film, types.ReconstructionFilter, "rfilter", "box"), "box", [])
-    keep = [name for name, _ in nested(mi, film)] + ["width", "height"]
-    if job["size"]:
-        film["width"], film["height"] = job["size"]
-    else:
-        keep += ["crop_offset_x", "crop_offset_y", "crop_width", "crop_height"]
-    reduce(film, "hdrfilm", keep)
-    film["pixel_format"], film["component_format"] = "rgb", "float32"
 
-    integrate(mi, root.props, child, reduce, notes)
-    mi.parser.transform_all(config, state)
-    return mi.parser.instantiate(config, state)
-
-
-def nested(mi, props):
-    """(name, reference) of the objects inside one."""
-    return [(name, value) for name, value in props.items() if isinstance(value, mi.Properties.ResolvedReference)]
-
-
-def integrate(mi, root, child, reduce, notes):
+def integrate(mi, tree, notes):
     """Leaves the scene's integrator where it traces paths, takes what is nested in one that writes layers, and puts
     `path` in the place of any other, as limpid does."""
-    name, node = child(root, mi.ObjectType.Integrator)
-    while node is not None and node.props.plugin_name() in ("aov", "moment"):
-        outer = node.props.plugin_name()
-        inner_name, inner = child(node.props, mi.ObjectType.Integrator)
+    kind = mi.ObjectType.Integrator
+    made = tree.child(0, kind) is None
+    node = tree.ensure(0, kind, "integrator")
+    name = next(name for name, child in tree.nested(0) if child == node)
+    while (plugin := tree.props(node).plugin_name()) in ("aov", "moment"):
+        inner = tree.child(node, kind)
         if inner is None:
-            del root[name]
-            return
-        notes.append(f"of the integrator {outer} the one inside it is compared")
-        root[name] = node.props[inner_name]
+            break
+        notes.append(f"of the integrator {plugin} the one inside it is compared")
+        tree.put(0, name, inner)
         node = inner
-    if node is not None and node.props.plugin_name() not in ("path", "direct", "volpath", "volpathmis"):
-        notes.append(f"both render the scene with path in the place of {node.props.plugin_name()}")
-        reduce(node.props, "path", ["max_depth", "rr_depth", "hide_emitters"])
+    if plugin not in ("path", "direct", "volpath", "volpathmis"):
+        why = "as the file names no integrator" if made else f"in the place of {plugin}"
+        notes.append(f"both render the scene with path {why}")
+        tree.reduce(node, "path", ["max_depth", "rr_depth", "hide_emitters"])
 
 
 if __name__ == "__main__":

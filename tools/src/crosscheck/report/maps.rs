@@ -6,8 +6,8 @@ use limpid_frame::compare::{Family, Finding, Halves};
 /// Linear colours: red where the first picture is brighter, blue where it is darker, white where nothing is to be seen.
 const BRIGHTER: [f32; 3] = [0.6, 0.02, 0.02];
 const DARKER: [f32; 3] = [0.02, 0.08, 0.6];
-/// Share of the pixels that may be beyond the scale of the difference.
-const BEYOND: f64 = 0.01;
+/// Colours are full at twice the difference that this share of the pixels is below: a few fireflies must not set the scale.
+const MOST: f64 = 0.9;
 
 /// Planes R, G and B.
 pub type Planes = [Vec<f32>; 3];
@@ -52,8 +52,8 @@ pub fn difference_colours(difference: &Frame) -> (Planes, f64) {
         (0..difference.len()).map(|p| planes.iter().map(|plane| plane[p]).sum::<f32>() / 3.0).collect();
     let mut sizes: Vec<f32> = mean.iter().map(|d| d.abs()).filter(|d| d.is_finite()).collect();
     sizes.sort_by(f32::total_cmp);
-    let full =
-        sizes.get((sizes.len() as f64 * (1.0 - BEYOND)) as usize).or(sizes.last()).copied().unwrap_or(0.0);
+    let most = sizes.get((sizes.len() as f64 * MOST) as usize).copied().filter(|most| *most > 0.0);
+    let full = 2.0 * most.or(sizes.last().copied()).unwrap_or(0.0);
     let share = |d: f32| if full > 0.0 { d / full } else { 0.0 };
     (colours(mean.iter().map(|&d| share(d))), full.into())
 }
@@ -111,7 +111,7 @@ mod tests {
             difference.insert(name, vec![2.0, -2.0, 0.0]);
         }
         let ([r, g, b], full) = difference_colours(&difference);
-        assert_eq!(full, 2.0);
+        assert_eq!(full, 4.0);
         assert!(r[0] > b[0] && b[1] > r[1]);
         assert_eq!((r[2], g[2], b[2]), (1.0, 1.0, 1.0));
     }

@@ -193,6 +193,7 @@ fn boxes(places: &[(Finding, bool)]) -> String {
             i + 1,
         );
     }
+    // The picture's pixels are the unit, however large it is shown.
     svg
 }
 
