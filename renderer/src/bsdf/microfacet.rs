@@ -26,14 +26,16 @@ const LARGEST_ALPHA: f32 = 1e3;
 /// What the table of albedos reaches to.
 pub const LARGEST_TABULATED: f32 = 1.0;
 
-/// A direction mirrored at a facet, and what the lobe without its reflectance F is there.
+/// A direction mirrored or refracted at a facet, and what the lobe without its reflectance F, or transmittance 1 − F, is
+/// there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reflection {
+pub struct Lobe {
     /// Cosine of `wo` to the half vector, in [0, 1]: the argument of F.
     pub cos_m: f32,
-    /// With which [`Microfacet::sample`] draws `wi`, per steradian.
+    /// Per steradian, with which mirroring or refracting at [`Microfacet::visible_normal`] draws `wi`.
     pub pdf: f32,
-    /// f · cos θi / (F · pdf): does not underflow where both do.
+    /// f · cos θi / (F · pdf): does not underflow where both do. Of refraction it is that of energy: radiance has the
+    /// factor 1/η² besides.
     pub weight: f32,
 }
 
@@ -43,6 +45,12 @@ impl Microfacet {
     pub fn new(distribution: Distribution, alpha_u: f32, alpha_v: f32) -> Self {
         let alpha = Vec2::new(alpha_u.max(SMALLEST_ALPHA), alpha_v.max(SMALLEST_ALPHA));
         Self { distribution, alpha: alpha.min(Vec2::splat(LARGEST_ALPHA)) }
+    }
+
+    /// The smaller width.
+    #[inline]
+    pub fn narrowest(&self) -> f32 {
+        self.alpha.min_element()
     }
 
     /// The larger width.
@@ -73,21 +81,54 @@ impl Microfacet {
     ///
     /// `sample` is followed by this too, so that a direction has one density however it was found.
     #[inline]
-    pub fn reflection(&self, wo: Vec3, wi: Vec3) -> Option<Reflection> {
+    pub fn reflection(&self, wo: Vec3, wi: Vec3) -> Option<Lobe> {
         if !(wo.z > 0.0 && wi.z > 0.0) {
             return None;
         }
         let m = (wo + wi).try_normalize()?;
+        let (density, weight) = self.masked(wo, wi, m);
+        Some(Lobe { cos_m: wo.dot(m).clamp(0.0, 1.0), pdf: 0.25 * density, weight })
+    }
+
+    /// The same for refraction into a medium of relative index `eta`, not 1; `None` unless `wo` lies above the surface,
+    /// `wi` below, and each on its own side of the facet between them. The half vector is along wo + η wi (Walter et al.
+    /// 2007, eq. 16), and dω_m / dω_i = η² |wi·m| / |wo + η wi|² (eq. 17).
+    ///
+    /// In f64 and of directions made unit there: that sum is as short as η − 1, and what the rounding of their lengths
+    /// to f32 would leave of it is noise. (That of where they point is left: see
+    /// [`RoughDielectric`](super::RoughDielectric).)
+    #[inline]
+    pub fn refraction(&self, wo: Vec3, wi: Vec3, eta: f32) -> Option<Lobe> {
+        if !(wo.z > 0.0 && wi.z < 0.0) {
+            return None;
+        }
+        let (o, i, n) = (wo.as_dvec3().normalize(), wi.as_dvec3().normalize(), f64::from(eta));
+        let sum = o + n * i;
+        let length2 = sum.length_squared();
+        let m = sum * (sum.z.signum() / length2.sqrt());
+        let (cos_o, cos_i) = (o.dot(m), i.dot(m));
+        // Not so for an infinite or undefined half vector, either.
+        if !(cos_o > 0.0 && cos_i < 0.0) {
+            return None;
+        }
+        let (density, weight) = self.masked(wo, wi, m.as_vec3());
+        let pdf = density * (cos_o * n * n * -cos_i / length2) as f32;
+        Some(Lobe { cos_m: (cos_o as f32).min(1.0), pdf, weight })
+    }
+
+    /// For a facet `m`: D(m) G1(wo) / cos θo, which is the density with which `visible_normal` draws it over its cosine to
+    /// `wo`; and what the masking leaves of the light, G1(wi).
+    #[inline]
+    pub fn masked(&self, wo: Vec3, wi: Vec3, m: Vec3) -> (f32, f32) {
         let d = self.d(m);
-        let (masking, pdf) = match self.distribution {
-            Distribution::Ggx => (self.g1(wi), 0.5 * d * self.ggx_visible_share(wo)),
+        match self.distribution {
+            Distribution::Ggx => (2.0 * d * self.ggx_visible_share(wo), self.g1(wi)),
             Distribution::Beckmann => {
                 // f has Mitsuba's masking, a fit within 0.35 %; the density of the samples has the exact one.
                 let share = beckmann::visible_share(wo.z, self.slope(wo));
-                (self.g1(wi) * self.g1(wo) / (share * wo.z), 0.25 * d * share)
+                (d * share, self.g1(wi) * self.g1(wo) / (share * wo.z))
             }
-        };
-        Some(Reflection { cos_m: wo.dot(m).clamp(0.0, 1.0), pdf, weight: masking })
+        }
     }
 
     /// Density of facet normals at `m`, per steradian of normals and unit of projected area.
