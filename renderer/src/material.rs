@@ -2,6 +2,7 @@
 
 mod flatten;
 mod perturb;
+mod principled;
 
 use glam::Vec2;
 use limpid_scenes::{Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Scalar, Scene};
@@ -76,6 +77,8 @@ pub enum Model {
         specular: Color,
         nonlinear: bool,
     },
+    Principled(limpid_scenes::Principled),
+    PrincipledThin(limpid_scenes::PrincipledThin),
 }
 
 impl Materials {
@@ -173,13 +176,25 @@ impl Materials {
                 let coating = &self.coatings[coating];
                 Bsdf::RoughPlastic(RoughPlastic::new(coating, color(diffuse), color(specular), nonlinear))
             }
+            Model::Principled(ref p) => principled::principled(p, uv, textures),
+            Model::PrincipledThin(ref p) => principled::principled_thin(p, uv, textures),
         }
     }
 }
 
 impl Model {
     fn is_anisotropic(&self) -> bool {
-        matches!(self, Self::RoughConductor { alpha_u, alpha_v, .. } if alpha_u != alpha_v)
+        let is_stretched = |anisotropic: Scalar| anisotropic != Scalar::Constant(0.0);
+        match self {
+            Self::RoughConductor { alpha_u, alpha_v, .. } => alpha_u != alpha_v,
+            Self::Principled(p) => is_stretched(p.anisotropic),
+            Self::PrincipledThin(p) => is_stretched(p.anisotropic),
+            Self::Diffuse { .. }
+            | Self::Conductor { .. }
+            | Self::Dielectric { .. }
+            | Self::Plastic { .. }
+            | Self::RoughPlastic { .. } => false,
+        }
     }
 }
 
@@ -265,6 +280,10 @@ fn prepare(material: &Material, coatings: &mut Coatings) -> Result<Model, Prepar
             specular: specular_reflectance,
             nonlinear,
         },
+        MaterialKind::Principled(ref p) => {
+            Model::Principled(limpid_scenes::Principled { eta: relative(p.eta, 1.0)?, ..**p })
+        }
+        MaterialKind::PrincipledThin(ref p) => Model::PrincipledThin(**p),
         MaterialKind::TwoSided { .. }
         | MaterialKind::Null
         | MaterialKind::Mask { .. }

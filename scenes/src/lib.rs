@@ -35,6 +35,7 @@ mod materials;
 mod mesh;
 mod mitsuba;
 mod nearest;
+mod principled;
 mod scene;
 mod spectrum;
 #[cfg(test)]
@@ -43,4 +44,5 @@ mod testing;
 pub use error::SceneError;
 pub use export::{ExportError, Exported, export_mitsuba};
 pub use load::{LoadOptions, load, load_str};
+pub use principled::{Principled, PrincipledThin};
 pub use scene::*;

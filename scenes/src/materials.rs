@@ -8,6 +8,9 @@ impl MaterialKind {
     pub fn transmits(&self) -> bool {
         match self {
             Self::Dielectric { .. } => true,
+            Self::Principled(p) => p.transmits(),
+            // Perhaps only reflects, but on both sides.
+            Self::PrincipledThin(_) => true,
             Self::Diffuse { .. }
             | Self::Conductor { .. }
             | Self::RoughConductor { .. }
@@ -31,6 +34,8 @@ impl MaterialKind {
             | Self::Dielectric { .. }
             | Self::Plastic { .. }
             | Self::RoughPlastic { .. }
+            | Self::Principled(_)
+            | Self::PrincipledThin(_)
             | Self::Null => Vec::new(),
             Self::Mask { inner, .. } | Self::Perturbed { inner, .. } => vec![*inner],
             Self::TwoSided { front: a, back: b } | Self::Blend { first: a, second: b, .. } => vec![*a, *b],

@@ -13,6 +13,7 @@ mod integrator;
 mod nesting;
 mod object;
 mod parameters;
+mod principled;
 mod shapes;
 mod survey;
 mod text;

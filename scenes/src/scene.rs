@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
 
+use crate::principled::{Principled, PrincipledThin};
+
 /// Linear Rec. 709 colour.
 pub type Rgb = [f32; 3];
 
@@ -386,6 +388,10 @@ pub enum MaterialKind {
         /// Colour shift by internal reflections is accounted for.
         nonlinear: bool,
     },
+    /// Burley's principled model.
+    Principled(Box<Principled>),
+    /// Burley's principled model of a thin sheet; never two-sided.
+    PrincipledThin(Box<PrincipledThin>),
     /// Gives both sides of a surface a reflecting material.
     TwoSided {
         /// Seen from the side of the normal.

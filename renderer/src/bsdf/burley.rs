@@ -24,13 +24,14 @@ pub fn facets(roughness: f32, anisotropic: f32) -> Microfacet {
 /// A dial in [0, 1]; NaN counts as 0.
 #[inline]
 pub fn dial(x: f32) -> f32 {
-    x.max(0.0).min(1.0)
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }
 
 /// Mean of the channels for the choice between lobes: finite whatever a texture holds.
 #[inline]
 pub fn mean(c: Rgb) -> f32 {
-    (c.element_sum() / 3.0).max(0.0).min(1e3)
+    let mean = c.element_sum() / 3.0;
+    if mean > 0.0 { mean.min(1e3) } else { 0.0 }
 }
 
 /// `(1 − cos)⁵`.
@@ -136,7 +137,7 @@ impl Base {
         const COSINES: [(f32, f32); 6] = [
             (0.033_765_24, 0.085_662_25),
             (0.169_395_31, 0.180_380_79),
-            (0.380_690_41, 0.233_956_97),
+            (0.380_690_4, 0.233_956_97),
             (0.619_309_6, 0.233_956_97),
             (0.830_604_7, 0.180_380_79),
             (0.966_234_76, 0.085_662_25),

@@ -4,6 +4,7 @@ use std::f32::consts::{FRAC_1_PI, TAU};
 
 use glam::{Vec2, Vec3};
 
+use super::albedo::lattice;
 use super::burley::schlick_weight_into;
 
 /// Facets distributed by "GTR" of exponent 1 (2012, eq. 4), with the reflectance of index 1.5 and the masking of GGX of
@@ -88,6 +89,19 @@ impl Clearcoat {
         let f = F0 + (1.0 - F0) * schlick_weight_into(cos_m, eta);
         let pdf = d * m.z / (4.0 * cos_m);
         (self.weight * f * d * g1(wo.z) * g1(wi.z) * wi.z, pdf)
+    }
+
+    /// Directional albedo for a `wo` above the surface; `eta` as in [`eval`](Self::eval).
+    pub fn albedo(&self, wo: Vec3, eta: f32) -> f32 {
+        if !self.is_there() {
+            return 0.0;
+        }
+        let weight = |u: Vec2| {
+            let Some(wi) = self.sample(wo, u) else { return 0.0 };
+            let (f_cos, pdf) = self.eval(wo, wi, eta);
+            if pdf > 0.0 { f_cos / pdf } else { 0.0 }
+        };
+        lattice::<55, 34>().map(weight).sum::<f32>() / 55.0
     }
 }
 

@@ -47,12 +47,6 @@ impl Microfacet {
         Self { distribution, alpha: alpha.min(Vec2::splat(LARGEST_ALPHA)) }
     }
 
-    /// The smaller width.
-    #[inline]
-    pub fn narrowest(&self) -> f32 {
-        self.alpha.min_element()
-    }
-
     /// The larger width.
     #[inline]
     pub fn widest(&self) -> f32 {

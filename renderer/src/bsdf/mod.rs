@@ -7,6 +7,8 @@
 
 mod albedo;
 mod beckmann;
+mod burley;
+mod clearcoat;
 mod conductor;
 mod dielectric;
 mod diffuse;
@@ -14,6 +16,8 @@ mod fresnel;
 mod lobes;
 mod microfacet;
 mod plastic;
+mod principled;
+mod principled_thin;
 mod rough_conductor;
 mod rough_plastic;
 
@@ -26,6 +30,8 @@ pub use diffuse::Diffuse;
 pub use lobes::{Lobes, MOST_LOBES, Perturbation, Turn};
 pub use microfacet::Microfacet;
 pub use plastic::Plastic;
+pub use principled::{Principled, PrincipledDials};
+pub use principled_thin::{PrincipledThin, PrincipledThinDials};
 pub use rough_conductor::RoughConductor;
 pub use rough_plastic::{Coating, RoughPlastic};
 
@@ -87,6 +93,10 @@ pub enum Bsdf<'a> {
     Plastic(Plastic),
     /// Rough coating over a diffuse base.
     RoughPlastic(RoughPlastic<'a>),
+    /// Burley's, with an inside.
+    Principled(Principled),
+    /// Burley's, of a sheet.
+    PrincipledThin(PrincipledThin),
 }
 
 impl Bsdf<'_> {
@@ -100,6 +110,8 @@ impl Bsdf<'_> {
             Self::Dielectric(b) => b.sample(wo, u_lobe),
             Self::Plastic(b) => b.sample(wo, u_lobe, u),
             Self::RoughPlastic(b) => b.sample(wo, u_lobe, u),
+            Self::Principled(b) => b.sample(wo, u_lobe, u),
+            Self::PrincipledThin(b) => b.sample(wo, u_lobe, u),
         }
     }
 
@@ -112,6 +124,8 @@ impl Bsdf<'_> {
             Self::RoughConductor(b) => b.eval(wo, wi),
             Self::Plastic(b) => b.eval(wo, wi),
             Self::RoughPlastic(b) => b.eval(wo, wi),
+            Self::Principled(b) => b.eval(wo, wi),
+            Self::PrincipledThin(b) => b.eval(wo, wi),
         }
     }
 
@@ -122,6 +136,7 @@ impl Bsdf<'_> {
             Self::Diffuse(_) | Self::RoughConductor(_) | Self::RoughPlastic(_) => true,
             Self::Conductor(_) | Self::Dielectric(_) => false,
             Self::Plastic(b) => b.has_base(),
+            Self::Principled(_) | Self::PrincipledThin(_) => true,
         }
     }
 
@@ -135,6 +150,8 @@ impl Bsdf<'_> {
             Self::RoughConductor(b) => b.facets.widest() < NEAR_DELTA_ALPHA,
             Self::Plastic(b) => !b.has_base(),
             Self::RoughPlastic(b) => !b.has_base() && b.alpha() < NEAR_DELTA_ALPHA,
+            Self::Principled(b) => b.near_delta(),
+            Self::PrincipledThin(b) => b.near_delta(),
         }
     }
 
@@ -147,6 +164,8 @@ impl Bsdf<'_> {
             Self::Dielectric(b) => b.features(wo),
             Self::Plastic(b) => b.features(wo),
             Self::RoughPlastic(b) => b.features(wo),
+            Self::Principled(b) => b.features(wo),
+            Self::PrincipledThin(b) => b.features(wo),
         }
     }
 }

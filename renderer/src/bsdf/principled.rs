@@ -3,9 +3,7 @@
 use glam::{Vec2, Vec3};
 use limpid_scenes::Distribution;
 
-use super::burley::{
-    Base, dial, facets, hue, mean, normal_reflectance, schlick_weight, schlick_weight_into,
-};
+use super::burley::{Base, dial, facets, hue, mean, normal_reflectance, schlick_weight, schlick_weight_into};
 use super::clearcoat::Clearcoat;
 use super::microfacet::Microfacet;
 use super::{BsdfEval, BsdfFeatures, BsdfSample, NEAR_DELTA_ALPHA, albedo, fresnel};
@@ -72,6 +70,10 @@ pub struct Principled {
     through: Rgb,
 }
 
+/// The index of what refracts differs from 1 at least so much: refraction at matched indices is a needle that `f32`
+/// directions do not resolve. (Mitsuba replaces 1 by 1.001.)
+const NEAREST_TO_MATCHED: f32 = 1e-3;
+
 /// What a facet does, the colours of all factors but masking.
 struct Facet {
     reflectance: Rgb,
@@ -93,17 +95,19 @@ impl Principled {
     /// Works out what does not depend on directions.
     #[inline]
     pub fn new(dials: &PrincipledDials) -> Self {
-        let &PrincipledDials { base_color, eta, .. } = dials;
+        let base_color = dials.base_color;
         let (roughness, metallic, spec_trans) =
             (dial(dials.roughness), dial(dials.metallic), dial(dials.spec_trans));
         let plain = 1.0 - metallic;
         let tinted = plain * dial(dials.spec_tint);
+        let refracting = plain * spec_trans;
+        let close = refracting > 0.0 && (dials.eta - 1.0).abs() < NEAREST_TO_MATCHED;
+        let eta = if close { 1.0 + NEAREST_TO_MATCHED.copysign(dials.eta - 1.0) } else { dials.eta };
+        let there = if eta == 1.0 { 0.0 } else { 1.0 };
         let mut f0 = metallic * base_color;
         if tinted > 0.0 {
             f0 += hue(base_color) * (tinted * normal_reflectance(eta));
         }
-        let there = if eta == 1.0 { 0.0 } else { 1.0 };
-        let refracting = plain * spec_trans;
         Self {
             base: Base {
                 color: base_color * (plain * (1.0 - spec_trans)),
@@ -163,7 +167,7 @@ impl Principled {
             + mean(self.through) * (1.0 - dielectric);
         let (base, clearcoat) = (self.base.estimate(schlick_o), self.clearcoat.estimate(cos, schlick_o));
         let scale = 1.0 / (base + clearcoat + facets);
-        scale.is_finite().then(|| Shares {
+        scale.is_finite().then_some(Shares {
             base: base * scale,
             clearcoat: clearcoat * scale,
             facets: facets * scale,
@@ -174,42 +178,22 @@ impl Principled {
     /// reflects or refracts in proportion to both.
     #[inline]
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
-        let front = wo.z > 0.0;
-        if wo.z.is_nan() || wo.z == 0.0 || !(front || self.refracting > 0.0) {
-            return None;
-        }
-        let mut u_lobe = u_lobe;
-        let shares = if front { Some(self.shares(wo.z, schlick_weight(wo.z))?) } else { None };
-        let mut wi = None;
-        if let Some(shares) = &shares {
-            if u_lobe < shares.base {
-                wi = Some(cosine_hemisphere(u));
-            } else if u_lobe < shares.base + shares.clearcoat {
-                wi = Some(self.clearcoat.sample(wo, u)?);
+        let (wi, eta) = if wo.z > 0.0 {
+            let shares = self.shares(wo.z, schlick_weight(wo.z))?;
+            let rest = u_lobe - shares.base;
+            if rest < 0.0 {
+                (cosine_hemisphere(u), 1.0)
+            } else if rest < shares.clearcoat {
+                (self.clearcoat.sample(wo, u)?, 1.0)
             } else {
-                u_lobe = ((u_lobe - shares.base - shares.clearcoat) / shares.facets).min(1.0f32.next_down());
+                let rest = (rest - shares.clearcoat) / shares.facets;
+                self.sample_facets(wo, self.eta, true, rest.min(1.0f32.next_down()), u)?
             }
-        }
-        let mut eta = 1.0;
-        let wi = match wi {
-            Some(wi) => wi,
-            None => {
-                let (local, relative) = if front { (wo, self.eta) } else { (-wo, 1.0 / self.eta) };
-                let m = self.facets.visible_normal(local, u);
-                let cos_m = local.dot(m).clamp(0.0, 1.0);
-                let facet = self.facet(front, cos_m, relative);
-                let wi = if u_lobe < facet.share {
-                    2.0 * cos_m * m - local
-                } else {
-                    eta = relative;
-                    ((cos_m / eta - facet.cos_t) * m - local / eta).normalize()
-                };
-                // What falls on the wrong side would go on to other facets.
-                if wi.z == 0.0 || (wi.z > 0.0) != (u_lobe < facet.share) {
-                    return None;
-                }
-                if front { wi } else { -wi }
-            }
+        } else if wo.z < 0.0 && self.refracting > 0.0 {
+            let (wi, eta) = self.sample_facets(-wo, 1.0 / self.eta, false, u_lobe, u)?;
+            (-wi, eta)
+        } else {
+            return None;
         };
         let value = self.eval(wo, wi);
         (value.pdf >= f32::MIN_POSITIVE).then(|| BsdfSample {
@@ -221,36 +205,45 @@ impl Principled {
         })
     }
 
+    /// Direction from a facet for a `wo` above the facets, and the relative index that light then goes through.
+    #[inline]
+    fn sample_facets(&self, wo: Vec3, eta: f32, front: bool, u_lobe: f32, u: Vec2) -> Option<(Vec3, f32)> {
+        let m = self.facets.visible_normal(wo, u);
+        let cos_m = wo.dot(m).clamp(0.0, 1.0);
+        let facet = self.facet(front, cos_m, eta);
+        let (wi, eta, side) = if u_lobe < facet.share {
+            (2.0 * cos_m * m - wo, 1.0, 1.0)
+        } else {
+            (((cos_m / eta - facet.cos_t) * m - wo / eta).normalize(), eta, -1.0)
+        };
+        // What falls on the wrong side would go on to other facets.
+        (wi.z * side > 0.0).then_some((wi, eta))
+    }
+
     /// Value and density of all lobes.
     #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
-        let front = wo.z > 0.0;
-        if front && wi.z > 0.0 {
-            return self.reflection(wo, wi);
-        }
-        if self.refracting <= 0.0 {
-            return BsdfEval::ZERO;
-        }
-        // Facets look the same turned through the origin.
-        let (wo, wi, eta) = if front { (wo, wi, self.eta) } else { (-wo, -wi, 1.0 / self.eta) };
-        let share = match front {
-            true => self.shares(wo.z, schlick_weight(wo.z)).map_or(0.0, |shares| shares.facets),
-            false => 1.0,
-        };
-        if wi.z > 0.0 {
-            let Some(lobe) = self.facets.reflection(wo, wi) else { return BsdfEval::ZERO };
-            let facet = self.facet(front, lobe.cos_m, eta);
+        if wo.z > 0.0 && wi.z > 0.0 {
+            self.reflection(wo, wi)
+        } else if self.refracting <= 0.0 {
+            BsdfEval::ZERO
+        } else if wo.z > 0.0 {
+            let Some(shares) = self.shares(wo.z, schlick_weight(wo.z)) else { return BsdfEval::ZERO };
+            let value = self.refraction(wo, wi, self.eta, true);
+            BsdfEval { pdf: shares.facets * value.pdf, ..value }
+        } else {
+            // Facets look the same turned through the origin.
+            let (wo, wi, eta) = (-wo, -wi, 1.0 / self.eta);
+            let Some(lobe) = self.facets.reflection(wo, wi) else {
+                return self.refraction(wo, wi, eta, false);
+            };
+            let facet = self.facet(false, lobe.cos_m, eta);
             let f_cos = facet.reflectance * (lobe.weight * lobe.pdf);
-            return BsdfEval { f_cos: Split::specular(f_cos), pdf: facet.share * lobe.pdf };
+            BsdfEval { f_cos: Split::specular(f_cos), pdf: facet.share * lobe.pdf }
         }
-        let Some(lobe) = self.facets.refraction(wo, wi, eta) else { return BsdfEval::ZERO };
-        let facet = self.facet(front, lobe.cos_m, eta);
-        // Radiance is spread over another solid angle on the other side.
-        let f_cos = facet.transmittance * (lobe.weight * lobe.pdf / (eta * eta));
-        BsdfEval { f_cos: Split::specular(f_cos), pdf: share * (1.0 - facet.share) * lobe.pdf }
     }
 
-    /// Of directions above the surface.
+    /// All lobes that reflect, for directions above the surface.
     #[inline]
     fn reflection(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
         let schlick_o = schlick_weight(wo.z);
@@ -270,6 +263,16 @@ impl Principled {
             pdf += shares.base * cosine_hemisphere_pdf(wi);
         }
         BsdfEval { f_cos: Split { diffuse, specular }, pdf }
+    }
+
+    /// For a `wo` above the facets and a `wi` below.
+    #[inline]
+    fn refraction(&self, wo: Vec3, wi: Vec3, eta: f32, front: bool) -> BsdfEval {
+        let Some(lobe) = self.facets.refraction(wo, wi, eta) else { return BsdfEval::ZERO };
+        let facet = self.facet(front, lobe.cos_m, eta);
+        // Radiance is spread over another solid angle on the other side.
+        let f_cos = facet.transmittance * (lobe.weight * lobe.pdf / (eta * eta));
+        BsdfEval { f_cos: Split::specular(f_cos), pdf: (1.0 - facet.share) * lobe.pdf }
     }
 
     /// For the feature layers: what is reflected and what goes through, without the change of solid angle.
@@ -294,7 +297,9 @@ impl Principled {
             && let Some((distribution, alpha)) = self.facets.isotropic()
         {
             debug_assert_eq!(distribution, Distribution::Ggx);
-            return albedo::albedo(distribution, alpha, wo.z, |cos| self.facet(true, cos, self.eta).reflectance);
+            return albedo::albedo(distribution, alpha, wo.z, |cos| {
+                self.facet(true, cos, self.eta).reflectance
+            });
         }
         let eta = if front { self.eta } else { 1.0 / self.eta };
         let albedo = albedo::lattice::<55, 34>().map(|u| {

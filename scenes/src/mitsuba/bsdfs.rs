@@ -160,6 +160,8 @@ impl Reader<'_> {
                 specular_reflectance: self.tint(object, "specular_reflectance")?,
                 nonlinear: object.boolean("nonlinear", false)?,
             },
+            "principled" => MaterialKind::Principled(self.principled(object)?),
+            "principledthin" => MaterialKind::PrincipledThin(self.principled_thin(object)?),
             _ => MaterialKind::RoughPlastic {
                 distribution: self.distribution(object)?,
                 alpha: width(object, "alpha")?,
