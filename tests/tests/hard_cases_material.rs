@@ -21,6 +21,15 @@ const BSDFS: &[&str] = &[
     r#"<bsdf type="blendbsdf"><bsdf type="diffuse"/><bsdf type="dielectric"/></bsdf>"#,
     r#"<bsdf type="mask"><bsdf type="twosided"><bsdf type="plastic"/></bsdf></bsdf>"#,
     r#"<bsdf type="normalmap"><rgb name="normalmap" value="0.7 0.4 0.9"/><bsdf type="roughconductor"/></bsdf>"#,
+    r#"<bsdf type="principled"/>"#,
+    r#"<bsdf type="principled"><float name="metallic" value="1"/><float name="roughness" value="0"/></bsdf>"#,
+    r#"<bsdf type="principled"><float name="metallic" value="0.5"/><float name="roughness" value="1"/><float name="anisotropic" value="1"/><float name="clearcoat" value="1"/><float name="clearcoat_gloss" value="1"/></bsdf>"#,
+    r#"<bsdf type="principled"><float name="spec_trans" value="1"/><float name="roughness" value="0"/></bsdf>"#,
+    r#"<bsdf type="principled"><float name="spec_trans" value="0.5"/><float name="specular" value="0"/><float name="sheen" value="1"/><float name="sheen_tint" value="1"/><float name="flatness" value="1"/><float name="spec_tint" value="1"/></bsdf>"#,
+    r#"<bsdf type="principledthin"/>"#,
+    r#"<bsdf type="principledthin"><float name="spec_trans" value="1"/><float name="roughness" value="0"/></bsdf>"#,
+    r#"<bsdf type="principledthin"><float name="spec_trans" value="0.5"/><float name="diff_trans" value="1"/><float name="sheen" value="1"/><float name="flatness" value="1"/></bsdf>"#,
+    r#"<bsdf type="twosided"><bsdf type="principled"><float name="clearcoat" value="1"/></bsdf></bsdf>"#,
     r#"<bsdf type="twosided"><bsdf type="roughconductor"><string name="distribution" value="ggx"/></bsdf></bsdf>"#,
 ];
 

@@ -1,6 +1,8 @@
 //! Every BSDF, from one list: a new lobe is tested by being listed. Draws have fixed seeds; what compares draws with a
 //! truth is χ² with the testkit's false-alarm rate of 1e-4 a test, all else holds for every draw.
 
+mod burley;
+
 use std::sync::LazyLock;
 
 use limpid_scenes::Distribution::{self, Beckmann, Ggx};
@@ -41,7 +43,7 @@ fn dielectric(eta: f32) -> Bsdf<'static> {
 }
 
 fn cases() -> Vec<Case> {
-    vec![
+    let mut cases = vec![
         ("diffuse", Bsdf::Diffuse(Diffuse { albedo: ORANGE })),
         ("mirror", Bsdf::Conductor(Conductor { ior: None, specular: ORANGE })),
         ("conductor", Bsdf::Conductor(Conductor { ior: Some(GOLD), specular: Rgb::ONE })),
@@ -61,7 +63,9 @@ fn cases() -> Vec<Case> {
         ("rough plastic, Beckmann", rough_plastic(0, ORANGE, Rgb::ONE, false)),
         ("rough plastic, nonlinear GGX", rough_plastic(1, ORANGE, Rgb::splat(0.7), true)),
         ("rough plastic, narrow GGX", rough_plastic(2, Rgb::splat(0.2), Rgb::ONE, false)),
-    ]
+    ];
+    cases.extend(burley::cases());
+    cases
 }
 
 /// Lobes too narrow for χ²; all else must hold for them too.
@@ -77,7 +81,7 @@ fn needles() -> Vec<Case> {
 }
 
 fn all() -> Vec<Case> {
-    [cases(), needles()].concat()
+    [cases(), needles(), burley::needles()].concat()
 }
 
 /// A direction of cosine `cos`, turned off the axes.
@@ -159,7 +163,7 @@ fn albedo(bsdf: &Bsdf, wo: Vec3) -> Split {
 
 #[test]
 fn no_energy_is_gained() {
-    for (name, bsdf) in all() {
+    for (name, bsdf) in all().into_iter().filter(|(name, _)| !name.contains(burley::SUM)) {
         for cos in COSINES.iter().flat_map(|&cos| [cos, -cos]) {
             let total = albedo(&bsdf, direction(cos)).total();
             assert!(total.min_element() >= 0.0 && total.max_element() < 1.001, "{name}, cos {cos}: {total}");
@@ -208,7 +212,9 @@ fn refraction_goes_back_the_way_it_came() {
 
 #[test]
 fn one_sided_models_are_black_from_behind() {
-    for (name, bsdf) in all().into_iter().filter(|(_, b)| !matches!(b, Bsdf::Dielectric(_))) {
+    let one_sided =
+        |(name, bsdf): &Case| !matches!(bsdf, Bsdf::Dielectric(_)) && !name.contains(burley::BOTH);
+    for (name, bsdf) in all().into_iter().filter(one_sided) {
         let (up, down) = (direction(0.7), direction(-0.7));
         assert_eq!(bsdf.sample(down, 0.3, Vec2::splat(0.3)), None, "{name}");
         for (wo, wi) in [(up, down), (down, up), (down, down)] {
@@ -350,6 +356,14 @@ fn only_mirrors_glass_and_needles_are_passed_by_the_feature_layers() {
         ("black plastic", true, 0.0),
         ("rough plastic, Beckmann", false, 1.0),
         ("black rough plastic", true, 0.005f32.sqrt()),
+        ("principled sum", false, 1.0),
+        ("principled metal", false, 0.6),
+        ("principled needle", true, 0.001f32.sqrt()),
+        ("principled metal sum, coat", false, 0.6),
+        ("principled glass, both sides", false, 0.5),
+        ("principled glass, both sides, needle", true, 0.001f32.sqrt()),
+        ("sheet, both sides, diffuse through", false, 1.0),
+        ("pane, both sides, needle", true, 0.001f32.sqrt()),
     ] {
         let bsdf = near(name);
         assert_eq!((bsdf.near_delta(), bsdf.features(Vec3::Z).roughness), (delta, roughness), "{name}");

@@ -112,6 +112,8 @@ impl Writer<'_> {
                 self.iors(*int_ior, *ext_ior);
                 self.coated(*diffuse_reflectance, *specular_reflectance, *nonlinear)
             }
+            MaterialKind::Principled(p) => self.principled(p),
+            MaterialKind::PrincipledThin(p) => self.principled_thin(p),
             MaterialKind::TwoSided { front, back } => {
                 self.material_ref(*front);
                 if back != front {
@@ -194,6 +196,8 @@ fn plugin(kind: &MaterialKind) -> &'static str {
         MaterialKind::Dielectric { .. } => "dielectric",
         MaterialKind::Plastic { .. } => "plastic",
         MaterialKind::RoughPlastic { .. } => "roughplastic",
+        MaterialKind::Principled(_) => "principled",
+        MaterialKind::PrincipledThin(_) => "principledthin",
         MaterialKind::TwoSided { .. } => "twosided",
         MaterialKind::Null => "null",
         MaterialKind::Mask { .. } => "mask",

@@ -5,6 +5,7 @@ mod hostile;
 mod language;
 mod nesting;
 mod objects;
+mod principled;
 mod warnings;
 
 use std::path::Path;
