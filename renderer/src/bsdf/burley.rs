@@ -52,6 +52,13 @@ pub fn schlick_weight_into(cos: f32, eta: f32) -> f32 {
     schlick_weight((1.0 - (1.0 - cos) * (1.0 + cos) / (eta * eta)).max(0.0).sqrt())
 }
 
+/// A cosine to the facets that are seen, for an estimate of their mean reflectance: at grazing incidence rough facets
+/// turn towards the viewer. The factor is right for width 1, where the mean of Schlick's weight is 1/21.
+#[inline]
+pub fn facing(cos: f32, roughness: f32) -> f32 {
+    cos + 0.455 * roughness * roughness * (1.0 - cos)
+}
+
 /// Reflectance at normal incidence.
 #[inline]
 pub fn normal_reflectance(eta: f32) -> f32 {

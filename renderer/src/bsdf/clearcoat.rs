@@ -87,7 +87,8 @@ impl Clearcoat {
         }
         let d = self.scale / (m.x * m.x + m.y * m.y + self.alpha2 * m.z * m.z);
         let f = F0 + (1.0 - F0) * schlick_weight_into(cos_m, eta);
-        let pdf = d * m.z / (4.0 * cos_m);
+        // Beyond all range near the horizon, where nothing is drawn.
+        let pdf = (d * m.z / (4.0 * cos_m)).min(1e30);
         (self.weight * f * d * g1(wo.z) * g1(wi.z) * wi.z, pdf)
     }
 

@@ -1,9 +1,10 @@
 //! Burley's principled model, with transmission.
 
 use glam::{Vec2, Vec3};
-use limpid_scenes::Distribution;
 
-use super::burley::{Base, dial, facets, hue, mean, normal_reflectance, schlick_weight, schlick_weight_into};
+use super::burley::{
+    Base, dial, facets, facing, hue, mean, normal_reflectance, schlick_weight, schlick_weight_into,
+};
 use super::clearcoat::Clearcoat;
 use super::microfacet::Microfacet;
 use super::{BsdfEval, BsdfFeatures, BsdfSample, NEAR_DELTA_ALPHA, albedo, fresnel};
@@ -157,7 +158,7 @@ impl Principled {
     /// By estimates of the albedos, for a `wo` above the surface; `None` where nothing is scattered.
     #[inline]
     fn shares(&self, cos: f32, schlick_o: f32) -> Option<Shares> {
-        let f = if self.eta > 1.0 { schlick_o } else { schlick_weight_into(cos, self.eta) };
+        let f = schlick_weight_into(facing(cos, self.base.roughness), self.eta);
         let r0 = normal_reflectance(self.eta);
         let dielectric = r0 + (1.0 - r0) * f;
         let f0 = mean(self.f0);
@@ -293,10 +294,9 @@ impl Principled {
 
     /// Of the facets alone, from a `wo` above them: from the table where it has it, else over visible normals.
     fn facets_albedo(&self, wo: Vec3, front: bool) -> Rgb {
-        if self.refracting <= 0.0
-            && let Some((distribution, alpha)) = self.facets.isotropic()
-        {
-            debug_assert_eq!(distribution, Distribution::Ggx);
+        // Total reflection has an edge that the table does not resolve.
+        let smooth = self.refracting <= 0.0 && (self.eta > 1.0 || self.dielectric <= 0.0);
+        if let Some((distribution, alpha)) = self.facets.isotropic().filter(|_| smooth) {
             return albedo::albedo(distribution, alpha, wo.z, |cos| {
                 self.facet(true, cos, self.eta).reflectance
             });

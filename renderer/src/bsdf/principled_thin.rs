@@ -2,7 +2,9 @@
 
 use glam::{Vec2, Vec3};
 
-use super::burley::{Base, dial, facets, hue, mean, normal_reflectance, schlick_weight, schlick_weight_into};
+use super::burley::{
+    Base, dial, facets, facing, hue, mean, normal_reflectance, schlick_weight, schlick_weight_into,
+};
 use super::microfacet::Microfacet;
 use super::{BsdfEval, BsdfFeatures, BsdfSample, NEAR_DELTA_ALPHA, albedo, fresnel};
 use crate::color::{Rgb, Split};
@@ -117,13 +119,13 @@ impl PrincipledThin {
     #[inline]
     fn shares(&self, cos: f32, schlick_o: f32) -> Option<Shares> {
         let r0 = normal_reflectance(self.eta);
-        let f = if self.eta > 1.0 { schlick_o } else { schlick_weight_into(cos, self.eta) };
-        let dielectric = r0 + (1.0 - r0) * f;
+        let f = schlick_weight_into(facing(cos, self.base.roughness), self.eta);
+        let dielectric = if self.eta == 1.0 { 0.0 } else { r0 + (1.0 - r0) * f };
         let tinted = mean(self.f0) + (1.0 - mean(self.f0)) * f;
         let base = self.base.estimate(schlick_o);
         let diffuse_through = mean(self.diffuse_through);
         let reflection = self.specular * (dielectric + self.spec_tint * (tinted - dielectric));
-        // Where the facets do not all turn the same cosine to `wo`, it is not all reflected at grazing angles.
+        // Not all facets turn the same cosine to `wo`, and so not all reflect totally.
         let transmission = mean(self.through) * (1.0 - dielectric).max(0.05);
         let scale = 1.0 / (base + diffuse_through + reflection + transmission);
         scale.is_finite().then_some(Shares {
@@ -149,7 +151,7 @@ impl PrincipledThin {
             } else if rest < shares.reflection {
                 self.reflecting.sample(above, u)?
             } else {
-                mirrored(self.transmitting.sample(above, u)?)
+                mirrored(self.transmitting.sample(above, u).filter(|&wi| leaves_behind(above, wi))?)
             }
         };
         let wi = turned(wi, wo.z);
@@ -181,8 +183,11 @@ impl PrincipledThin {
             if let Some(lobe) = lobe {
                 let colour =
                     if reflects { self.reflectance(lobe.cos_m) } else { self.transmittance(lobe.cos_m) };
-                specular = colour * (lobe.weight * lobe.pdf);
-                pdf = lobe.pdf * if reflects { shares.reflection } else { shares.transmission };
+                // Nothing goes through a facet that reflects totally, and no such direction is drawn.
+                if colour != Rgb::ZERO {
+                    specular = colour * (lobe.weight * lobe.pdf);
+                    pdf = lobe.pdf * if reflects { shares.reflection } else { shares.transmission };
+                }
             }
         }
         let cosine = cosine_hemisphere_pdf(wi);
