@@ -124,12 +124,12 @@ fn every_dial_takes_a_texture() {
     }
 }
 
-/// The values are those that Mitsuba 3.9.1 derives.
+/// By Mitsuba's formula, 2 / (1 − √(0.08 specular)) − 1.
 #[test]
 fn specular_stands_for_an_index() {
     for (parameters, eta) in [
         (float("specular", 0.0), 1.0),
-        (float("specular", 1.0), 1.788_854_4),
+        (float("specular", 1.0), 1.788_788_6),
         (float("specular", 0.0) + &float("spec_trans", 0.5), 1.018_050_2),
         (float("eta", 1.0), 1.0),
         (float("eta", 1.0) + &float("spec_trans", 0.5), 1.001),
