@@ -79,6 +79,7 @@ pub enum Model {
     },
     Principled(limpid_scenes::Principled),
     PrincipledThin(limpid_scenes::PrincipledThin),
+    Gltf(limpid_scenes::GltfMaterial),
 }
 
 impl Materials {
@@ -178,6 +179,7 @@ impl Materials {
             }
             Model::Principled(ref p) => principled::principled(p, uv, textures),
             Model::PrincipledThin(ref p) => principled::principled_thin(p, uv, textures),
+            Model::Gltf(ref p) => principled::gltf(p, uv, textures),
         }
     }
 }
@@ -193,7 +195,8 @@ impl Model {
             | Self::Conductor { .. }
             | Self::Dielectric { .. }
             | Self::Plastic { .. }
-            | Self::RoughPlastic { .. } => false,
+            | Self::RoughPlastic { .. }
+            | Self::Gltf(_) => false,
         }
     }
 }
@@ -284,6 +287,9 @@ fn prepare(material: &Material, coatings: &mut Coatings) -> Result<Model, Prepar
             Model::Principled(limpid_scenes::Principled { eta: relative(p.eta, 1.0)?, ..**p })
         }
         MaterialKind::PrincipledThin(ref p) => Model::PrincipledThin(**p),
+        MaterialKind::Gltf(ref p) => {
+            Model::Gltf(limpid_scenes::GltfMaterial { ior: relative(p.ior, 1.0)?, ..**p })
+        }
         MaterialKind::TwoSided { .. }
         | MaterialKind::Null
         | MaterialKind::Mask { .. }

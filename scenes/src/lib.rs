@@ -29,6 +29,7 @@
 mod error;
 mod export;
 mod files;
+mod gltf_material;
 mod image;
 mod load;
 mod materials;
@@ -43,6 +44,7 @@ mod testing;
 
 pub use error::SceneError;
 pub use export::{ExportError, Exported, export_mitsuba};
+pub use gltf_material::GltfMaterial;
 pub use load::{LoadOptions, load, load_str};
 pub use principled::{Principled, PrincipledThin};
 pub use scene::*;

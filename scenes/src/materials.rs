@@ -9,6 +9,7 @@ impl MaterialKind {
         match self {
             Self::Dielectric { .. } => true,
             Self::Principled(p) => p.transmits(),
+            Self::Gltf(p) => p.transmits(),
             // Perhaps only reflects, but on both sides.
             Self::PrincipledThin(_) => true,
             Self::Diffuse { .. }
@@ -36,6 +37,7 @@ impl MaterialKind {
             | Self::RoughPlastic { .. }
             | Self::Principled(_)
             | Self::PrincipledThin(_)
+            | Self::Gltf(_)
             | Self::Null => Vec::new(),
             Self::Mask { inner, .. } | Self::Perturbed { inner, .. } => vec![*inner],
             Self::TwoSided { front: a, back: b } | Self::Blend { first: a, second: b, .. } => vec![*a, *b],

@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
 
+use crate::gltf_material::GltfMaterial;
 use crate::principled::{Principled, PrincipledThin};
 
 /// Linear Rec. 709 colour.
@@ -392,6 +393,8 @@ pub enum MaterialKind {
     Principled(Box<Principled>),
     /// Burley's principled model of a thin sheet; never two-sided.
     PrincipledThin(Box<PrincipledThin>),
+    /// The material of glTF 2.0.
+    Gltf(Box<GltfMaterial>),
     /// Gives both sides of a surface a reflecting material.
     TwoSided {
         /// Seen from the side of the normal.

@@ -52,6 +52,16 @@ pub fn schlick_weight_into(cos: f32, eta: f32) -> f32 {
     schlick_weight((1.0 - (1.0 - cos) * (1.0 + cos) / (eta * eta)).max(0.0).sqrt())
 }
 
+/// Where light is refracted the index differs from 1 at least so much: refraction at matched indices is a needle that
+/// `f32` directions do not resolve. (Mitsuba replaces 1 by 1.001.)
+const NEAREST_TO_MATCHED: f32 = 1e-3;
+
+/// An index of refraction, kept from 1.
+#[inline]
+pub fn unmatched(eta: f32) -> f32 {
+    if (eta - 1.0).abs() < NEAREST_TO_MATCHED { 1.0 + NEAREST_TO_MATCHED.copysign(eta - 1.0) } else { eta }
+}
+
 /// A cosine to the facets that are seen, for an estimate of their mean reflectance: at grazing incidence rough facets
 /// turn towards the viewer. The factor is right for width 1, where the mean of Schlick's weight is 1/21.
 #[inline]
@@ -134,34 +144,39 @@ impl Base {
         sum
     }
 
-    /// Directional albedo from the cosine `cos` > 0 of `wo`, by Gauss's rule over cos θi and the midpoint rule over the
-    /// azimuth.
+    /// Directional albedo from the cosine `cos` > 0 of `wo`.
     pub fn albedo(&self, cos: f32) -> Rgb {
         if self.is_black() {
             return Rgb::ZERO;
         }
-        /// Nodes in [0, 1] and their weights.
-        const COSINES: [(f32, f32); 6] = [
-            (0.033_765_24, 0.085_662_25),
-            (0.169_395_31, 0.180_380_79),
-            (0.380_690_4, 0.233_956_97),
-            (0.619_309_6, 0.233_956_97),
-            (0.830_604_7, 0.180_380_79),
-            (0.966_234_76, 0.085_662_25),
-        ];
-        /// Cosine and sine of π/8, 3π/8, …: half the circle, as the other half is its mirror image.
-        const AZIMUTHS: [(f32, f32); 4] = {
-            const C: f32 = 0.923_879_5;
-            const S: f32 = 0.382_683_43;
-            [(C, S), (S, C), (-S, C), (-C, S)]
-        };
-        let sin = |cos: f32| ((1.0 - cos) * (1.0 + cos)).max(0.0).sqrt();
-        let wo = Vec3::new(sin(cos), 0.0, cos);
         let schlick_o = schlick_weight(cos);
-        let ring = |&(z, weight): &(f32, f32)| {
-            let towards = |&(x, y): &(f32, f32)| Vec3::new(sin(z) * x, sin(z) * y, z);
-            AZIMUTHS.iter().map(|a| self.f_cos(wo, towards(a), schlick_o)).sum::<Rgb>() * weight
-        };
-        COSINES.iter().map(ring).sum::<Rgb>() * (2.0 * PI / AZIMUTHS.len() as f32)
+        hemisphere(cos, |wo, wi| self.f_cos(wo, wi, schlick_o))
     }
+}
+
+/// ∫ f(wo, wi) dωi over the hemisphere for an f that is smooth, the same under a turn about the normal, and falls with
+/// cos θi to 0: by Gauss's rule over cos θi and the midpoint rule over the azimuth. `cos` is that of `wo`.
+pub fn hemisphere(cos: f32, f: impl Fn(Vec3, Vec3) -> Rgb) -> Rgb {
+    /// Nodes in [0, 1] and their weights.
+    const COSINES: [(f32, f32); 6] = [
+        (0.033_765_24, 0.085_662_25),
+        (0.169_395_31, 0.180_380_79),
+        (0.380_690_4, 0.233_956_97),
+        (0.619_309_6, 0.233_956_97),
+        (0.830_604_7, 0.180_380_79),
+        (0.966_234_76, 0.085_662_25),
+    ];
+    /// Cosine and sine of π/8, 3π/8, …: half the circle, as the other half is its mirror image.
+    const AZIMUTHS: [(f32, f32); 4] = {
+        const C: f32 = 0.923_879_5;
+        const S: f32 = 0.382_683_43;
+        [(C, S), (S, C), (-S, C), (-C, S)]
+    };
+    let sin = |cos: f32| ((1.0 - cos) * (1.0 + cos)).max(0.0).sqrt();
+    let wo = Vec3::new(sin(cos), 0.0, cos);
+    let ring = |&(z, weight): &(f32, f32)| {
+        let towards = |&(x, y): &(f32, f32)| Vec3::new(sin(z) * x, sin(z) * y, z);
+        AZIMUTHS.iter().map(|a| f(wo, towards(a))).sum::<Rgb>() * weight
+    };
+    COSINES.iter().map(ring).sum::<Rgb>() * (2.0 * PI / AZIMUTHS.len() as f32)
 }

@@ -13,6 +13,7 @@ mod conductor;
 mod dielectric;
 mod diffuse;
 mod fresnel;
+mod gltf;
 mod lobes;
 mod microfacet;
 mod plastic;
@@ -20,6 +21,7 @@ mod principled;
 mod principled_thin;
 mod rough_conductor;
 mod rough_plastic;
+mod sheen;
 
 use glam::{Vec2, Vec3};
 
@@ -27,6 +29,7 @@ use crate::color::{Rgb, Split};
 pub use conductor::{Conductor, Ior};
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
+pub use gltf::{Gltf, GltfDials};
 pub use lobes::{Lobes, MOST_LOBES, Perturbation, Turn};
 pub use microfacet::Microfacet;
 pub use plastic::Plastic;
@@ -97,6 +100,8 @@ pub enum Bsdf<'a> {
     Principled(Principled),
     /// Burley's, of a sheet.
     PrincipledThin(PrincipledThin),
+    /// The material of glTF.
+    Gltf(Gltf),
 }
 
 impl Bsdf<'_> {
@@ -112,6 +117,7 @@ impl Bsdf<'_> {
             Self::RoughPlastic(b) => b.sample(wo, u_lobe, u),
             Self::Principled(b) => b.sample(wo, u_lobe, u),
             Self::PrincipledThin(b) => b.sample(wo, u_lobe, u),
+            Self::Gltf(b) => b.sample(wo, u_lobe, u),
         }
     }
 
@@ -126,6 +132,7 @@ impl Bsdf<'_> {
             Self::RoughPlastic(b) => b.eval(wo, wi),
             Self::Principled(b) => b.eval(wo, wi),
             Self::PrincipledThin(b) => b.eval(wo, wi),
+            Self::Gltf(b) => b.eval(wo, wi),
         }
     }
 
@@ -136,7 +143,7 @@ impl Bsdf<'_> {
             Self::Diffuse(_) | Self::RoughConductor(_) | Self::RoughPlastic(_) => true,
             Self::Conductor(_) | Self::Dielectric(_) => false,
             Self::Plastic(b) => b.has_base(),
-            Self::Principled(_) | Self::PrincipledThin(_) => true,
+            Self::Principled(_) | Self::PrincipledThin(_) | Self::Gltf(_) => true,
         }
     }
 
@@ -152,6 +159,7 @@ impl Bsdf<'_> {
             Self::RoughPlastic(b) => !b.has_base() && b.alpha() < NEAR_DELTA_ALPHA,
             Self::Principled(b) => b.near_delta(),
             Self::PrincipledThin(b) => b.near_delta(),
+            Self::Gltf(b) => b.near_delta(),
         }
     }
 
@@ -166,6 +174,7 @@ impl Bsdf<'_> {
             Self::RoughPlastic(b) => b.features(wo),
             Self::Principled(b) => b.features(wo),
             Self::PrincipledThin(b) => b.features(wo),
+            Self::Gltf(b) => b.features(wo),
         }
     }
 }

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::burley::{
-    Base, dial, facets, facing, hue, mean, normal_reflectance, schlick_weight, schlick_weight_into,
+    Base, dial, facets, facing, hue, mean, normal_reflectance, schlick_weight, schlick_weight_into, unmatched,
 };
 use super::clearcoat::Clearcoat;
 use super::microfacet::Microfacet;
@@ -71,10 +71,6 @@ pub struct Principled {
     through: Rgb,
 }
 
-/// The index of what refracts differs from 1 at least so much: refraction at matched indices is a needle that `f32`
-/// directions do not resolve. (Mitsuba replaces 1 by 1.001.)
-const NEAREST_TO_MATCHED: f32 = 1e-3;
-
 /// What a facet does, the colours of all factors but masking.
 struct Facet {
     reflectance: Rgb,
@@ -102,8 +98,7 @@ impl Principled {
         let plain = 1.0 - metallic;
         let tinted = plain * dial(dials.spec_tint);
         let refracting = plain * spec_trans;
-        let close = refracting > 0.0 && (dials.eta - 1.0).abs() < NEAREST_TO_MATCHED;
-        let eta = if close { 1.0 + NEAREST_TO_MATCHED.copysign(dials.eta - 1.0) } else { dials.eta };
+        let eta = if refracting > 0.0 { unmatched(dials.eta) } else { dials.eta };
         let there = if eta == 1.0 { 0.0 } else { 1.0 };
         let mut f0 = metallic * base_color;
         if tinted > 0.0 {

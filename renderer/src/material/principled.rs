@@ -1,9 +1,9 @@
-//! The dials of Burley's models at a hit.
+//! The dials of Burley's models and of glTF's at a hit.
 
 use glam::Vec2;
-use limpid_scenes::{Principled, PrincipledThin, Scalar};
+use limpid_scenes::{GltfMaterial, Principled, PrincipledThin, Scalar};
 
-use crate::bsdf::{self, Bsdf, PrincipledDials, PrincipledThinDials};
+use crate::bsdf::{self, Bsdf, GltfDials, PrincipledDials, PrincipledThinDials};
 use crate::texture::Textures;
 
 /// See [`bsdf::Principled`].
@@ -41,5 +41,25 @@ pub fn principled_thin(p: &PrincipledThin, uv: Vec2, textures: &Textures) -> Bsd
         sheen_tint: scalar(p.sheen_tint),
         flatness: scalar(p.flatness),
         diff_trans: scalar(p.diff_trans),
+    }))
+}
+
+/// See [`bsdf::Gltf`].
+#[inline]
+pub fn gltf(p: &GltfMaterial, uv: Vec2, textures: &Textures) -> Bsdf<'static> {
+    let scalar = |s: Scalar| textures.scalar(s, uv);
+    Bsdf::Gltf(bsdf::Gltf::new(&GltfDials {
+        base_color: textures.color(p.base_color, uv),
+        metallic: scalar(p.metallic),
+        roughness: scalar(p.roughness),
+        ior: p.ior,
+        specular: scalar(p.specular),
+        specular_color: textures.color(p.specular_color, uv),
+        clearcoat: scalar(p.clearcoat),
+        clearcoat_roughness: scalar(p.clearcoat_roughness),
+        sheen_color: textures.color(p.sheen_color, uv),
+        sheen_roughness: scalar(p.sheen_roughness),
+        transmission: scalar(p.transmission),
+        thin: p.thin,
     }))
 }

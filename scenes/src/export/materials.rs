@@ -114,6 +114,7 @@ impl Writer<'_> {
             }
             MaterialKind::Principled(p) => self.principled(p),
             MaterialKind::PrincipledThin(p) => self.principled_thin(p),
+            MaterialKind::Gltf(p) => self.gltf(p),
             MaterialKind::TwoSided { front, back } => {
                 self.material_ref(*front);
                 if back != front {
@@ -198,6 +199,8 @@ fn plugin(kind: &MaterialKind) -> &'static str {
         MaterialKind::RoughPlastic { .. } => "roughplastic",
         MaterialKind::Principled(_) => "principled",
         MaterialKind::PrincipledThin(_) => "principledthin",
+        MaterialKind::Gltf(p) if p.thin && p.transmits() => "principledthin",
+        MaterialKind::Gltf(_) => "principled",
         MaterialKind::TwoSided { .. } => "twosided",
         MaterialKind::Null => "null",
         MaterialKind::Mask { .. } => "mask",
