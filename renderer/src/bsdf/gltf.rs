@@ -50,7 +50,7 @@ pub struct GltfDials {
 /// F_m(c) = base_color + (1 − base_color) (1 − c)⁵                              with c = wo·m
 /// base   = (1 − metallic) (1 − max F_d) base_color ((1 − transmission) / π + transmission · through)
 ///        + ((1 − metallic) F_d + metallic F_m) D G / (4 cos θo cos θi)
-/// sheen  = sheen_color D_s V_s + base · min over both cosines of (1 − max sheen_color · E_s(cos θ))
+/// sheen  = sheen_color f_s + base · min over both cosines of (1 − max sheen_color · E_s(cos θ))
 /// f      = (1 − k) sheen + k D_c G_c / (4 cos θo cos θi)     k = clearcoat (0.04 + 0.96 (1 − cos θo)⁵)
 /// ```
 ///
@@ -330,7 +330,12 @@ impl Gltf {
             }
             sum
         };
-        let mut albedo = albedo::lattice::<55, 34>().map(weight).sum::<Rgb>() / 55.0;
+        let mut albedo = if self.transmission > 0.0 || self.sheen_color != Rgb::ZERO {
+            albedo::lattice::<55, 34>().map(weight).sum::<Rgb>() / 55.0
+        } else {
+            let reflectance = |cos| self.facet(true, cos, eta).reflectance;
+            albedo::albedo(Distribution::Ggx, self.facets.widest(), wo.z, reflectance)
+        };
         let mut diffuse_albedo = Rgb::ZERO;
         if front {
             let coat = self.coated(wo.z);

@@ -11,19 +11,33 @@ const SMALLEST_ALPHA: f32 = 1e-3;
 /// Entries a side, equally spaced in √cos θ and √alpha from 0 to 1.
 const SIZE: usize = 24;
 
-/// `f · cos θi` of white sheen of width `alpha`, for directions above the surface: the distribution of Conty Estevez and
-/// Kulla (2017, eq. 2) with the visibility of Neubelt and Pettineo (2013):
+/// `f · cos θi` of white sheen of width `alpha`, for directions above the surface (Conty Estevez and Kulla 2017, eqs. 2
+/// and 3):
 ///
 /// ```text
-/// f = D V     D = (2 + 1/α) sin^(1/α) θm / 2π     V = 1 / (4 (cos θo + cos θi − cos θo cos θi))
+/// f = D / ((1 + Λ(θo) + Λ(θi)) 4 cos θo cos θi)     D = (2 + 1/α) sin^(1/α) θm / 2π
 /// ```
+///
+/// The simpler visibility of Neubelt and Pettineo (2013), which the extension also allows, reflects 1.8 times what it gets
+/// at grazing angles and roughness 0.2.
 #[inline]
 pub fn f_cos(wo: Vec3, wi: Vec3, alpha: f32) -> f32 {
     let Some(m) = (wo + wi).try_normalize() else { return 0.0 };
     let inverse = 1.0 / alpha.max(SMALLEST_ALPHA);
     let sin2 = (m.x * m.x + m.y * m.y).min(1.0);
     let d = (2.0 + inverse) * sin2.powf(0.5 * inverse) / TAU;
-    d * wi.z / (4.0 * (wo.z + wi.z - wo.z * wi.z))
+    d / ((1.0 + lambda(wo.z, alpha) + lambda(wi.z, alpha)) * 4.0 * wo.z)
+}
+
+/// The fit of Λ by its authors (2017, section 4 and table 1), but for the softened terminator.
+#[inline]
+fn lambda(cos: f32, alpha: f32) -> f32 {
+    let t = (1.0 - alpha) * (1.0 - alpha);
+    let mix = |smooth: f32, rough: f32| rough + (smooth - rough) * t;
+    let (a, b, c) = (mix(25.3245, 21.5473), mix(3.32435, 3.82987), mix(0.16801, 0.19823));
+    let (d, e) = (mix(-1.27393, -1.97760), mix(-4.85967, -4.32054));
+    let l = |x: f32| a / (1.0 + b * x.powf(c)) + d * x + e;
+    if cos < 0.5 { l(cos).exp() } else { (2.0 * l(0.5) - l((1.0 - cos).max(0.0))).exp() }
 }
 
 /// Directional albedo of white sheen from the cosine `cos`, from a table that is made when it is first asked for.
