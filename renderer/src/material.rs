@@ -2,6 +2,7 @@
 
 mod flatten;
 mod perturb;
+mod principled;
 
 use limpid_scenes::{
     Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Scalar, Scene, WardVariant,
@@ -107,6 +108,9 @@ pub enum Model {
         diffuse: Color,
         specular: Color,
     },
+    Principled(limpid_scenes::Principled),
+    PrincipledThin(limpid_scenes::PrincipledThin),
+    Gltf(limpid_scenes::GltfMaterial),
 }
 
 impl Materials {
@@ -229,18 +233,32 @@ impl Materials {
                 let (u, v) = (scalar(alpha_u), scalar(alpha_v));
                 Bsdf::Ward(Ward::new(variant, u, v, color(diffuse), color(specular)))
             }
+            Model::Principled(ref p) => principled::principled(p, uv, textures),
+            Model::PrincipledThin(ref p) => principled::principled_thin(p, uv, textures),
+            Model::Gltf(ref p) => principled::gltf(p, uv, textures),
         }
     }
 }
 
 impl Model {
     fn is_anisotropic(&self) -> bool {
-        matches!(
-            self,
+        let is_stretched = |anisotropic: Scalar| anisotropic != Scalar::Constant(0.0);
+        match self {
             Self::RoughConductor { alpha_u, alpha_v, .. }
             | Self::RoughDielectric { alpha_u, alpha_v, .. }
-            | Self::Ward { alpha_u, alpha_v, .. } if alpha_u != alpha_v
-        )
+            | Self::Ward { alpha_u, alpha_v, .. } => alpha_u != alpha_v,
+            Self::Principled(p) => is_stretched(p.anisotropic),
+            Self::PrincipledThin(p) => is_stretched(p.anisotropic),
+            Self::Diffuse { .. }
+            | Self::Conductor { .. }
+            | Self::Dielectric { .. }
+            | Self::ThinDielectric { .. }
+            | Self::RoughDiffuse { .. }
+            | Self::Phong { .. }
+            | Self::Plastic { .. }
+            | Self::RoughPlastic { .. }
+            | Self::Gltf(_) => false,
+        }
     }
 }
 
@@ -364,6 +382,13 @@ fn prepare(material: &Material, coatings: &mut Coatings) -> Result<Model, Prepar
                 diffuse: diffuse_reflectance,
                 specular: specular_reflectance,
             }
+        }
+        MaterialKind::Principled(ref p) => {
+            Model::Principled(limpid_scenes::Principled { eta: relative(p.eta, 1.0)?, ..**p })
+        }
+        MaterialKind::PrincipledThin(ref p) => Model::PrincipledThin(**p),
+        MaterialKind::Gltf(ref p) => {
+            Model::Gltf(limpid_scenes::GltfMaterial { ior: relative(p.ior, 1.0)?, ..**p })
         }
         MaterialKind::TwoSided { .. }
         | MaterialKind::Null

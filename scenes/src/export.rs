@@ -4,6 +4,7 @@ mod assets;
 mod camera;
 mod lights;
 mod materials;
+mod principled;
 mod shapes;
 mod textures;
 mod xml;

@@ -8,6 +8,10 @@ impl MaterialKind {
     pub fn transmits(&self) -> bool {
         match self {
             Self::Dielectric { .. } | Self::RoughDielectric { .. } | Self::ThinDielectric { .. } => true,
+            Self::Principled(p) => p.transmits(),
+            Self::Gltf(p) => p.transmits(),
+            // Perhaps only reflects, but on both sides.
+            Self::PrincipledThin(_) => true,
             Self::Diffuse { .. }
             | Self::Conductor { .. }
             | Self::RoughConductor { .. }
@@ -39,6 +43,9 @@ impl MaterialKind {
             | Self::RoughDiffuse { .. }
             | Self::Phong { .. }
             | Self::Ward { .. }
+            | Self::Principled(_)
+            | Self::PrincipledThin(_)
+            | Self::Gltf(_)
             | Self::Null => Vec::new(),
             Self::Mask { inner, .. } | Self::Perturbed { inner, .. } => vec![*inner],
             Self::TwoSided { front: a, back: b } | Self::Blend { first: a, second: b, .. } => vec![*a, *b],

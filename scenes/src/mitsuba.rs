@@ -16,6 +16,7 @@ mod meshes;
 mod nesting;
 mod object;
 mod parameters;
+mod principled;
 mod shapes;
 mod survey;
 mod text;

@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
 
+use crate::gltf_material::GltfMaterial;
+use crate::principled::{Principled, PrincipledThin};
 use crate::{Camera, Light};
 
 /// Linear Rec. 709 colour.
@@ -404,6 +406,12 @@ pub enum MaterialKind {
         /// Albedo of the lobe, about: it depends on the variant and the angle.
         specular_reflectance: Color,
     },
+    /// Burley's principled model.
+    Principled(Box<Principled>),
+    /// Burley's principled model of a thin sheet; never two-sided.
+    PrincipledThin(Box<PrincipledThin>),
+    /// The material of glTF 2.0.
+    Gltf(Box<GltfMaterial>),
     /// Gives both sides of a surface a reflecting material.
     TwoSided {
         /// Seen from the side of the normal.

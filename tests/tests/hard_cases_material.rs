@@ -33,6 +33,15 @@ const BSDFS: &[&str] = &[
     r#"<bsdf type="ward"/>"#,
     r#"<bsdf type="ward"><string name="variant" value="ward"/><float name="alpha_u" value="0.001"/><float name="alpha_v" value="1"/></bsdf>"#,
     r#"<bsdf type="ward"><string name="variant" value="ward-duer"/><rgb name="diffuse_reflectance" value="0"/></bsdf>"#,
+    r#"<bsdf type="principled"/>"#,
+    r#"<bsdf type="principled"><float name="metallic" value="1"/><float name="roughness" value="0"/></bsdf>"#,
+    r#"<bsdf type="principled"><float name="metallic" value="0.5"/><float name="roughness" value="1"/><float name="anisotropic" value="1"/><float name="clearcoat" value="1"/><float name="clearcoat_gloss" value="1"/></bsdf>"#,
+    r#"<bsdf type="principled"><float name="spec_trans" value="1"/><float name="roughness" value="0"/></bsdf>"#,
+    r#"<bsdf type="principled"><float name="spec_trans" value="0.5"/><float name="specular" value="0"/><float name="sheen" value="1"/><float name="sheen_tint" value="1"/><float name="flatness" value="1"/><float name="spec_tint" value="1"/></bsdf>"#,
+    r#"<bsdf type="principledthin"/>"#,
+    r#"<bsdf type="principledthin"><float name="spec_trans" value="1"/><float name="roughness" value="0"/></bsdf>"#,
+    r#"<bsdf type="principledthin"><float name="spec_trans" value="0.5"/><float name="diff_trans" value="1"/><float name="sheen" value="1"/><float name="flatness" value="1"/></bsdf>"#,
+    r#"<bsdf type="twosided"><bsdf type="principled"><float name="clearcoat" value="1"/></bsdf></bsdf>"#,
     r#"<bsdf type="twosided"><bsdf type="roughconductor"><string name="distribution" value="ggx"/></bsdf></bsdf>"#,
 ];
 

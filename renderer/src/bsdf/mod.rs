@@ -7,19 +7,25 @@
 
 mod albedo;
 mod beckmann;
+mod burley;
+mod clearcoat;
 mod conductor;
 mod dielectric;
 mod diffuse;
 mod fresnel;
 mod glossy;
+mod gltf;
 mod lobes;
 mod microfacet;
 mod phong;
 mod plastic;
+mod principled;
+mod principled_thin;
 mod rough_conductor;
 mod rough_dielectric;
 mod rough_diffuse;
 mod rough_plastic;
+mod sheen;
 mod thin_dielectric;
 mod ward;
 
@@ -29,10 +35,13 @@ use crate::color::{Rgb, Split};
 pub use conductor::{Conductor, Ior};
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
+pub use gltf::{Gltf, GltfDials};
 pub use lobes::{Lobes, MOST_LOBES, Perturbation, Turn};
 pub use microfacet::Microfacet;
 pub use phong::Phong;
 pub use plastic::Plastic;
+pub use principled::{Principled, PrincipledDials};
+pub use principled_thin::{PrincipledThin, PrincipledThinDials};
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
 pub use rough_diffuse::RoughDiffuse;
@@ -108,6 +117,12 @@ pub enum Bsdf<'a> {
     Phong(Phong),
     /// Ward.
     Ward(Ward),
+    /// Burley's, with an inside.
+    Principled(Principled),
+    /// Burley's, of a sheet.
+    PrincipledThin(PrincipledThin),
+    /// The material of glTF.
+    Gltf(Gltf),
 }
 
 impl Bsdf<'_> {
@@ -126,6 +141,9 @@ impl Bsdf<'_> {
             Self::RoughDiffuse(b) => b.sample(wo, u),
             Self::Phong(b) => b.sample(wo, u_lobe, u),
             Self::Ward(b) => b.sample(wo, u_lobe, u),
+            Self::Principled(b) => b.sample(wo, u_lobe, u),
+            Self::PrincipledThin(b) => b.sample(wo, u_lobe, u),
+            Self::Gltf(b) => b.sample(wo, u_lobe, u),
         }
     }
 
@@ -142,6 +160,9 @@ impl Bsdf<'_> {
             Self::RoughDiffuse(b) => b.eval(wo, wi),
             Self::Phong(b) => b.eval(wo, wi),
             Self::Ward(b) => b.eval(wo, wi),
+            Self::Principled(b) => b.eval(wo, wi),
+            Self::PrincipledThin(b) => b.eval(wo, wi),
+            Self::Gltf(b) => b.eval(wo, wi),
         }
     }
 
@@ -154,6 +175,7 @@ impl Bsdf<'_> {
             Self::Conductor(_) | Self::Dielectric(_) | Self::ThinDielectric(_) => false,
             Self::Plastic(b) => b.has_base(),
             Self::RoughDielectric(b) => !b.is_matched(),
+            Self::Principled(_) | Self::PrincipledThin(_) | Self::Gltf(_) => true,
         }
     }
 
@@ -170,6 +192,9 @@ impl Bsdf<'_> {
             Self::RoughDielectric(b) => b.is_matched() || b.facets.widest() < NEAR_DELTA_ALPHA,
             Self::Phong(b) => !b.has_base() && b.alpha() < NEAR_DELTA_ALPHA,
             Self::Ward(b) => !b.has_base() && b.alpha() < NEAR_DELTA_ALPHA,
+            Self::Principled(b) => b.near_delta(),
+            Self::PrincipledThin(b) => b.near_delta(),
+            Self::Gltf(b) => b.near_delta(),
         }
     }
 
@@ -187,6 +212,9 @@ impl Bsdf<'_> {
             Self::RoughDiffuse(b) => b.features(wo),
             Self::Phong(b) => b.features(wo),
             Self::Ward(b) => b.features(wo),
+            Self::Principled(b) => b.features(wo),
+            Self::PrincipledThin(b) => b.features(wo),
+            Self::Gltf(b) => b.features(wo),
         }
     }
 }

@@ -146,6 +146,9 @@ impl Writer<'_> {
             MaterialKind::RoughDiffuse { .. } | MaterialKind::Phong { .. } | MaterialKind::Ward { .. } => {
                 unreachable!("`refuse_old` has refused it")
             }
+            MaterialKind::Principled(p) => self.principled(p),
+            MaterialKind::PrincipledThin(p) => self.principled_thin(p),
+            MaterialKind::Gltf(p) => self.gltf(p),
             MaterialKind::TwoSided { front, back } => {
                 self.material_ref(*front);
                 if back != front {
@@ -246,6 +249,10 @@ fn plugin(kind: &MaterialKind) -> &'static str {
         MaterialKind::RoughDiffuse { .. } => "roughdiffuse",
         MaterialKind::Phong { .. } => "phong",
         MaterialKind::Ward { .. } => "ward",
+        MaterialKind::Principled(_) => "principled",
+        MaterialKind::PrincipledThin(_) => "principledthin",
+        MaterialKind::Gltf(p) if p.thin && p.transmits() => "principledthin",
+        MaterialKind::Gltf(_) => "principled",
         MaterialKind::TwoSided { .. } => "twosided",
         MaterialKind::Null => "null",
         MaterialKind::Mask { .. } => "mask",

@@ -65,6 +65,8 @@ fn materials_come_back_as_they_were() {
         format!(r#"<bsdf type="blendbsdf"><float name="weight" value="0.3"/>{diffuse}<bsdf type="plastic"/></bsdf>"#),
         format!(r#"<bsdf type="normalmap"><rgb name="normalmap" value="0.3 0.5 1"/>{diffuse}</bsdf>"#),
         r#"<bsdf type="null"/>"#.into(),
+        r#"<bsdf type="principled"><float name="metallic" value="0.3"/><float name="specular" value="0.7"/><float name="sheen" value="0.2"/></bsdf>"#.into(),
+        r#"<bsdf type="principledthin"><float name="eta" value="1.4"/><float name="diff_trans" value="1.3"/></bsdf>"#.into(),
     ];
     for case in cases {
         let scene = loaded(&format!(r#"<sensor type="perspective"/><shape type="cube">{case}</shape>"#));

@@ -181,6 +181,8 @@ impl Reader<'_> {
                 specular_transmittance: self.tint(object, "specular_transmittance")?,
             },
             "roughdiffuse" | "phong" | "ward" => self.old_model(object, kind)?,
+            "principled" => MaterialKind::Principled(self.principled(object)?),
+            "principledthin" => MaterialKind::PrincipledThin(self.principled_thin(object)?),
             _ => MaterialKind::RoughPlastic {
                 distribution: self.distribution(object)?,
                 alpha: width(object, "alpha")?,

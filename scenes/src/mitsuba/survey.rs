@@ -60,6 +60,8 @@ pub(super) const BSDFS: Class = Class {
         "roughdiffuse",
         "phong",
         "ward",
+        "principled",
+        "principledthin",
         "twosided",
         "null",
         "mask",
@@ -68,7 +70,7 @@ pub(super) const BSDFS: Class = Class {
         "normalmap",
         "bumpmap",
     ],
-    later: &["principled", "principledthin", "coating", "roughcoating"],
+    later: &["coating", "roughcoating"],
     out: &[
         ("pplastic", POLARISED),
         ("polarizer", POLARISED),

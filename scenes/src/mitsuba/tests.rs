@@ -7,6 +7,7 @@ mod hostile;
 mod language;
 mod nesting;
 mod objects;
+mod principled;
 mod shapes;
 mod warnings;
 

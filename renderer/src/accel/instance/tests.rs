@@ -195,7 +195,7 @@ fn meshes_stay_watertight_through_instances_small_and_far() {
             // Leaving it, a ray does not meet it again; going on, it meets the other side and no more.
             let surface = prepared.geometry.surface(ray, hit);
             let mut on = [Hit::MISS; 2];
-            let out = Vec3::from(surface.ng);
+            let out = surface.ng;
             prepared.accel.closest(&[surface.spawn(out), surface.spawn(ray.d)], &mut on);
             assert!(on[0].prim == NONE || on[0].t > 0.05 * scale as f32, "{scale} at {distance}: {on:?}");
             assert!(on[1].prim != NONE && on[1].t > 0.05 * scale as f32, "{scale} at {distance}: {on:?}");

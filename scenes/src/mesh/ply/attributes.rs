@@ -113,7 +113,8 @@ mod tests {
     #[test]
     fn columns_are_joined_as_mitsuba_joins_them() {
         // As Mitsuba 3.9.1 reads the same files.
-        let cases: [(&[&str], &[(&str, usize)]); 11] = [
+        type Case = (&'static [&'static str], &'static [(&'static str, usize)]);
+        let cases: [Case; 11] = [
             (&["r", "g", "b"], &[("vertex_color", 3)]),
             (&["red", "green", "blue"], &[("vertex_color", 3)]),
             (&["color_0", "color_1", "color_2"], &[("vertex_color", 3)]),

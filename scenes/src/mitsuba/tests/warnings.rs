@@ -67,7 +67,7 @@ fn each_stand_in_is_named_with_its_place() {
 #[test]
 fn a_diffuse_stand_in_keeps_the_colour() {
     let scene = loaded(
-        r#"<bsdf type="principled"><rgb name="base_color" value="0.1 0.2 0.3"/><float name="metallic" value="1"/></bsdf>"#,
+        r#"<bsdf type="roughcoating"><rgb name="base_color" value="0.1 0.2 0.3"/><float name="metallic" value="1"/></bsdf>"#,
     );
     assert_eq!(
         scene.materials[0].kind,

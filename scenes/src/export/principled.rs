@@ -1,0 +1,76 @@
+//! `principled` and `principledthin`, also as the nearest that Mitsuba has to glTF's material.
+
+use super::{ExportError, Writer};
+use crate::{GltfMaterial, Principled, PrincipledThin, Scalar};
+
+impl Writer<'_> {
+    pub(super) fn principled(&mut self, p: &Principled) -> Result<(), ExportError> {
+        self.color("base_color", p.base_color)?;
+        self.xml.float("eta", p.eta);
+        for (name, scalar) in [
+            ("roughness", p.roughness),
+            ("anisotropic", p.anisotropic),
+            ("metallic", p.metallic),
+            ("spec_trans", p.spec_trans),
+            ("spec_tint", p.spec_tint),
+            ("sheen", p.sheen),
+            ("sheen_tint", p.sheen_tint),
+            ("flatness", p.flatness),
+            ("clearcoat", p.clearcoat),
+            ("clearcoat_gloss", p.clearcoat_gloss),
+        ] {
+            self.scalar(name, scalar)?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn principled_thin(&mut self, p: &PrincipledThin) -> Result<(), ExportError> {
+        self.color("base_color", p.base_color)?;
+        for (name, scalar) in [
+            ("roughness", p.roughness),
+            ("anisotropic", p.anisotropic),
+            ("spec_trans", p.spec_trans),
+            ("eta", p.eta),
+            ("spec_tint", p.spec_tint),
+            ("sheen", p.sheen),
+            ("sheen_tint", p.sheen_tint),
+            ("flatness", p.flatness),
+            ("diff_trans", p.diff_trans),
+        ] {
+            self.scalar(name, scalar)?;
+        }
+        Ok(())
+    }
+
+    /// Base, metal and transmission; a coat of constant roughness; no sheen, and no colour of the reflection.
+    pub(super) fn gltf(&mut self, p: &GltfMaterial) -> Result<(), ExportError> {
+        self.notes.push(
+            "the glTF material is written as Mitsuba's principled: sheen and the specular weight and colour are left out, the coat differs"
+                .into(),
+        );
+        if p.thin && p.transmits() {
+            return self.principled_thin(&PrincipledThin {
+                base_color: p.base_color,
+                roughness: p.roughness,
+                spec_trans: p.transmission,
+                eta: Scalar::Constant(p.ior),
+                ..PrincipledThin::default()
+            });
+        }
+        // Mitsuba's coat has a width of 0.1 − 0.099 gloss.
+        let gloss = match p.clearcoat_roughness {
+            Scalar::Constant(roughness) => ((0.1 - roughness * roughness) / 0.099).clamp(0.0, 1.0),
+            Scalar::Texture(_) => 0.0,
+        };
+        self.principled(&Principled {
+            base_color: p.base_color,
+            roughness: p.roughness,
+            metallic: p.metallic,
+            spec_trans: p.transmission,
+            eta: p.ior,
+            clearcoat: p.clearcoat,
+            clearcoat_gloss: Scalar::Constant(gloss),
+            ..Principled::default()
+        })
+    }
+}
