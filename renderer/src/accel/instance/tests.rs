@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use glam::{DMat4, DQuat, DVec3, Vec3};
+use glam::{DMat4, DQuat, DVec3};
 use limpid_scenes::{Group, GroupId, Mesh, Scene, Shape, ShapeKind};
 use limpid_testkit::scene::{add, camera, diffuse, scene};
 
