@@ -15,8 +15,8 @@ use super::burley::schlick_weight_into;
 /// ```
 ///
 /// Burley's G includes the factor 1 / (4 cos θo cos θi) of microfacet models; as in Mitsuba 3.9.1, whose pictures these
-/// shall be, it does not, so that the coat is four times too bright at normal incidence and fades out at grazing.
-/// What the coat reflects is not taken from what lies below.
+/// shall be, it does not, so that the coat is four times Burley's at normal incidence and fades out at grazing. What the
+/// coat reflects is not taken from what lies below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearcoat {
     /// ¼ `clearcoat`.
