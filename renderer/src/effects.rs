@@ -74,8 +74,9 @@ pub fn effects(scene: &Scene) -> Vec<Called> {
         called.map(|id| &scene.materials[id.0 as usize].name)
     };
     let alpha = material(|kind| matches!(kind, MaterialKind::Mask { .. } | MaterialKind::Null));
-    let normal_map =
-        material(|kind| matches!(kind, MaterialKind::Perturbed { map: NormalMap::Normal(_), .. }));
+    let normal_map = material(|kind| {
+        matches!(kind, MaterialKind::Perturbed { map: NormalMap::Normal(_) | NormalMap::Tangent { .. }, .. })
+    });
     let bump_map =
         material(|kind| matches!(kind, MaterialKind::Perturbed { map: NormalMap::Bump { .. }, .. }));
     let transmission = material(MaterialKind::transmits);

@@ -1,6 +1,7 @@
 //! A scene as Mitsuba XML that renders the same picture there.
 
 mod assets;
+mod bake;
 mod camera;
 mod lights;
 mod materials;

@@ -1,6 +1,6 @@
 //! Parameters of the glTF 2.0 material.
 
-use crate::{Color, Scalar};
+use crate::{Color, Rgb, Scalar};
 
 /// The metallic-roughness material of glTF 2.0 (appendix B of its specification) with the extensions
 /// `KHR_materials_ior`, `_specular`, `_clearcoat`, `_sheen`, `_transmission` and `_volume`. Numbers are in \[0, 1\] where
@@ -34,6 +34,9 @@ pub struct GltfMaterial {
     pub transmission: Scalar,
     /// No inside (`thicknessFactor` 0): light goes through without bending.
     pub thin: bool,
+    /// White light that has gone this distance inside, in world space, has this colour; `None`: the inside is clear. Not
+    /// rendered yet.
+    pub attenuation: Option<(f32, Rgb)>,
 }
 
 impl Default for GltfMaterial {
@@ -54,6 +57,7 @@ impl Default for GltfMaterial {
             sheen_roughness: zero,
             transmission: zero,
             thin: true,
+            attenuation: None,
         }
     }
 }

@@ -28,6 +28,34 @@ pub(crate) fn decode(bytes: &[u8], raw: bool) -> Result<Image, String> {
     if bytes.starts_with(&exr::MAGIC) {
         return exr::decode(bytes);
     }
+    let picture = picture(bytes)?;
+    Ok(Image { width: picture.width(), height: picture.height(), texels: texels(picture, raw) })
+}
+
+/// Decodes the alpha channel of a picture, as grey; `None` where there is none, or it is 1 everywhere.
+///
+/// # Errors
+///
+/// One clause that says what is wrong.
+pub(crate) fn decode_alpha(bytes: &[u8]) -> Result<Option<Image>, String> {
+    if bytes.starts_with(&exr::MAGIC) {
+        return Ok(None); // alpha of these is coverage that is in the colours already
+    }
+    let picture = picture(bytes)?;
+    if !picture.color().has_alpha() {
+        return Ok(None);
+    }
+    let (width, height) = (picture.width(), picture.height());
+    let alpha: Vec<u8> = picture.into_rgba8().pixels().map(|pixel| pixel.0[3]).collect();
+    if alpha.iter().all(|&a| a == 255) {
+        return Ok(None);
+    }
+    let texels = Texels::Linear8(alpha.iter().flat_map(|&a| [a; 3]).collect());
+    Ok(Some(Image { width, height, texels }))
+}
+
+/// Decodes what is not OpenEXR.
+fn picture(bytes: &[u8]) -> Result<DynamicImage, String> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| e.to_string())?;
     let formats = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Bmp, ImageFormat::Hdr];
     if !reader.format().is_some_and(|format| formats.contains(&format)) {
@@ -45,8 +73,7 @@ pub(crate) fn decode(bytes: &[u8], raw: bool) -> Result<Image, String> {
     if decoder.total_bytes() > allowance {
         return Err(format!("{width}x{height} pixels cannot be in a file of {} bytes", bytes.len()));
     }
-    let picture = DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
-    Ok(Image { width, height, texels: texels(picture, raw) })
+    DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())
 }
 
 fn texels(picture: DynamicImage, raw: bool) -> Texels {

@@ -4,7 +4,8 @@
 //! in it, and no acceleration structure or sampling table either. Transforms are `f64`, so
 //! that a scene far from its origin keeps its digits until the renderer has moved it to the camera.
 //!
-//! [`load()`] reads a file, [`load_str`] a text. Today both speak Mitsuba XML, of versions 0.x and 2 to 3. What a file
+//! [`load()`] reads a file, [`load_str`] a text. A file is Mitsuba XML of versions 0.x and 2 to 3, glTF 2.0
+//! (text or binary) or OBJ with MTL; a text is Mitsuba XML. What a file
 //! says and limpid cannot honour is among the scene's [`warnings`](Scene::warnings), each with its place; what makes
 //! no scene is a [`SceneError`]. No input makes the readers panic, hang, or take memory beyond a constant times its size.
 //!
@@ -31,6 +32,7 @@ mod daylight;
 mod error;
 mod export;
 mod files;
+mod gltf;
 mod gltf_material;
 mod image;
 mod lights;
@@ -39,9 +41,11 @@ mod materials;
 mod mesh;
 mod mitsuba;
 mod nearest;
+mod obj;
 mod principled;
 mod scene;
 mod spectrum;
+mod standins;
 #[cfg(test)]
 mod testing;
 

@@ -1,9 +1,10 @@
 //! The one way in: a path or a text becomes a [`Scene`].
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::files::Files;
-use crate::{Scene, SceneError, mitsuba};
+use crate::{Place, Scene, SceneError, Warning, gltf, mitsuba, obj};
 
 /// How a scene file is to be read.
 #[derive(Clone, Debug, Default)]
@@ -14,7 +15,18 @@ pub struct LoadOptions {
     pub strict: bool,
 }
 
-/// Reads a scene; the format is told by the content, or else by the extension.
+/// Extensions of scene files, each with its reader.
+const FORMATS: [(&str, Format); 4] =
+    [("xml", Format::Mitsuba), ("gltf", Format::Gltf), ("glb", Format::Gltf), ("obj", Format::Obj)];
+
+#[derive(Clone, Copy, PartialEq)]
+enum Format {
+    Mitsuba,
+    Gltf,
+    Obj,
+}
+
+/// Reads a scene: Mitsuba XML, glTF or OBJ, as the file's extension says.
 ///
 /// # Errors
 ///
@@ -32,16 +44,25 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
         }
     })?;
     if let Some(picture) = picture_format(&bytes) {
-        let help =
-            "name a scene (.xml); to clean an EXR frame use `limpid denoise`, to look into it `limpid info`";
+        let help = "name a scene (.xml, .gltf, .glb, .obj); to clean an EXR frame use `limpid denoise`, to look into it `limpid info`";
         return Err(file_error(path, format!("{picture}, not a scene"), help));
     }
-    if let Some(format) = other_format(&bytes, path) {
-        let help = "render a Mitsuba scene (.xml) that holds the model, or wait for this reader";
-        return Err(file_error(path, format!("{format} is not read yet"), help));
-    }
+    let format = format(path)?;
     files.folders.push(path.parent().unwrap_or(Path::new("")).to_path_buf());
-    strictly(mitsuba::read(bytes, path, files, options)?, options)
+    let mut scene = match format {
+        Format::Mitsuba => return strictly(mitsuba::read(bytes, path, files, options)?, options),
+        Format::Gltf => gltf::read(bytes, path, files)?,
+        Format::Obj => obj::read(&bytes, path, files)?,
+    };
+    for (name, _) in &options.defines {
+        scene.warnings.push(Warning {
+            place: Place { file: Arc::new(path.into()), line: 0, column: 0 },
+            element: format!("-D {name}"),
+            message: "the format has no parameters; it changes nothing".into(),
+            unused_parameter: true,
+        });
+    }
+    strictly(scene, options)
 }
 
 /// Reads a scene from the text of a Mitsuba XML file; files that it names are looked for in `base_dir`.
@@ -85,23 +106,18 @@ fn picture_format(bytes: &[u8]) -> Option<&'static str> {
     formats.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| *name)
 }
 
-/// The name of a known format that is not Mitsuba's.
-fn other_format(bytes: &[u8], path: &Path) -> Option<&'static str> {
-    let text = bytes.trim_ascii_start();
-    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-    if bytes.starts_with(b"glTF") {
-        return Some("binary glTF");
-    }
-    if text.starts_with(b"<") {
-        return None;
-    }
-    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-        "gltf" | "glb" => Some("glTF"),
-        "obj" => Some("OBJ as a scene"),
-        "ply" => Some("PLY as a scene"),
-        _ if text.starts_with(b"{") => Some("glTF"),
-        _ => None,
-    }
+/// The format that a file's extension stands for, in capitals or small letters.
+fn format(path: &Path) -> Result<Format, SceneError> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    let known = FORMATS.iter().find(|(known, _)| known.eq_ignore_ascii_case(extension));
+    known.map(|(_, format)| *format).ok_or_else(|| {
+        let problem = match extension {
+            "" => "a scene file without extension".into(),
+            other => format!("unknown extension \".{other}\""),
+        };
+        let names: Vec<String> = FORMATS.iter().map(|(name, _)| format!(".{name}")).collect();
+        file_error(path, problem, &format!("scenes are read from {}", names.join(", ")))
+    })
 }
 
 #[cfg(test)]

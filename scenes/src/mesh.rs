@@ -14,6 +14,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+pub(crate) use self::raw::{Positions, RawMesh};
 use crate::{Mesh, SceneError};
 
 /// What a scene says about how a mesh file is to be read.

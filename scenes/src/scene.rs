@@ -19,7 +19,7 @@ use crate::{Camera, Light};
 pub type Rgb = [f32; 3];
 
 /// Where in its file something was said, so that a later error can point at it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Place {
     /// As the user gave it or as the including file names it; not canonicalised.
     pub file: Arc<PathBuf>,
@@ -460,6 +460,14 @@ pub enum MaterialKind {
 pub enum NormalMap {
     /// The normal in the shading frame whose x axis is ∂p/∂u, as the colour (n + 1) / 2.
     Normal(Color),
+    /// The same with x and y times `scale`, and with the y axis against ∂p/∂v: the frame of glTF's pictures, whose y
+    /// points to their top.
+    Tangent {
+        /// The normal.
+        normal: Color,
+        /// May be negative.
+        scale: f32,
+    },
     /// A height above the surface, in its own unit of length.
     Bump {
         /// The height.
@@ -543,6 +551,20 @@ pub enum TextureKind {
         color: Color,
         /// Per channel.
         factor: Rgb,
+    },
+    /// One channel of another texture, as a grey.
+    Channel {
+        /// Looked up with its own mapping.
+        of: TextureId,
+        /// 0 to 2: red, green, blue.
+        channel: u8,
+    },
+    /// Two colours multiplied, each looked up with its own mapping.
+    Product {
+        /// One factor.
+        a: Color,
+        /// The other.
+        b: Color,
     },
 }
 

@@ -168,7 +168,7 @@ impl Scattering {
         let Self { frame, wo, hole, at } = *self;
         let perturbed = |map: &Map, over| {
             match map.map {
-                NormalMap::Normal(_) => counters.normal_maps += 1,
+                NormalMap::Normal(_) | NormalMap::Tangent { .. } => counters.normal_maps += 1,
                 NormalMap::Bump { .. } => counters.bump_maps += 1,
             }
             let dp_duv = scene.geometry.dp_duv(surface).map(|d| frame.to_local(d));

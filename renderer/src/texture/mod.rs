@@ -31,6 +31,8 @@ enum Kind {
     Checkerboard(Checkerboard),
     Attribute(Attribute),
     Scaled(Color, Rgb),
+    Channel { of: TextureId, channel: usize },
+    Product([Color; 2]),
 }
 
 /// Where a texture is looked up.
@@ -77,6 +79,10 @@ impl Textures {
                 TextureKind::Checkerboard { color0, color1 } => {
                     Kind::Checkerboard(Checkerboard { colors: [*color0, *color1] })
                 }
+                TextureKind::Channel { of, channel } => {
+                    Kind::Channel { of: *of, channel: usize::from((*channel).min(2)) }
+                }
+                TextureKind::Product { a, b } => Kind::Product([*a, *b]),
             },
             uv_from_surface: texture.uv_from_surface,
         });
@@ -139,6 +145,10 @@ impl Textures {
             }
             Kind::Attribute(_) => return DVec2::ZERO,
             Kind::Scaled(color, _) => return self.detail_at(*color, depth - 1),
+            Kind::Channel { of, .. } => return self.detail_at(Color::Texture(*of), depth - 1),
+            Kind::Product([a, b]) => {
+                return self.detail_at(*a, depth - 1).max(self.detail_at(*b, depth - 1));
+            }
         };
         let m = texture.uv_from_surface;
         let along = |axis: DVec2| (axis.abs() * size).max_element();
@@ -164,6 +174,8 @@ impl Textures {
             Kind::Checkerboard(checkerboard) => self.color_at(checkerboard.color(uv_texture), at, depth - 1),
             Kind::Attribute(attribute) => attribute.color(at),
             Kind::Scaled(color, factor) => self.color_at(*color, at, depth - 1) * *factor,
+            Kind::Channel { of, channel } => Rgb::splat(self.look_up(*of, at, depth - 1)[*channel]),
+            Kind::Product([a, b]) => self.color_at(*a, at, depth - 1) * self.color_at(*b, at, depth - 1),
         }
     }
 }

@@ -102,9 +102,35 @@ fn checkers_may_be_textures_with_mappings_of_their_own() {
 }
 
 #[test]
+fn a_channel_is_that_of_the_texture_as_a_grey() {
+    let of = TextureId(1);
+    let texture = bitmap(TexelFilter::Nearest, WrapMode::Repeat);
+    for (channel, truth) in [(0, 3.0), (1, 1.0), (2, 4.0), (9, 4.0)] {
+        let textures = prepare(vec![TextureKind::Channel { of, channel }, texture.clone()], DMat3::IDENTITY);
+        assert_eq!(textures.color(FIRST, Vec2::new(0.95, 0.97)), Rgb::splat(truth), "channel {channel}");
+        let number = textures.scalar(Scalar::Texture(TextureId(0)), Vec2::new(0.95, 0.97));
+        assert!((number - truth).abs() < 1e-5, "channel {channel}: {number}");
+    }
+}
+
+#[test]
+fn a_product_multiplies_channel_by_channel() {
+    let (a, b) = (Color::Constant([2.0, 0.5, 0.25]), Color::Texture(TextureId(1)));
+    let kinds = vec![TextureKind::Product { a, b }, bitmap(TexelFilter::Nearest, WrapMode::Repeat)];
+    let textures = prepare(kinds, DMat3::IDENTITY);
+    assert_eq!(textures.color(FIRST, Vec2::new(0.95, 0.97)), Rgb::new(6.0, 0.5, 1.0));
+    let kinds = vec![TextureKind::Product { a: b, b }, bitmap(TexelFilter::Nearest, WrapMode::Repeat)];
+    assert_eq!(prepare(kinds, DMat3::IDENTITY).color(FIRST, Vec2::new(0.95, 0.97)), Rgb::new(9.0, 1.0, 16.0));
+}
+
+#[test]
 fn textures_that_contain_themselves_end() {
+    let channel = TextureKind::Channel { of: TextureId(0), channel: 0 };
+    for kind in [checkerboard(FIRST, FIRST), channel, TextureKind::Product { a: FIRST, b: FIRST }] {
+        let textures = prepare(vec![kind], DMat3::IDENTITY);
+        assert_eq!(textures.color(FIRST, Vec2::ZERO), Rgb::ZERO);
+    }
     let textures = prepare(vec![checkerboard(FIRST, FIRST)], DMat3::IDENTITY);
-    assert_eq!(textures.color(FIRST, Vec2::ZERO), Rgb::ZERO);
     assert_eq!(textures.color(Color::Texture(TextureId(9)), Vec2::ZERO), Rgb::ZERO);
 }
 

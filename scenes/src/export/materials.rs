@@ -172,6 +172,7 @@ impl Writer<'_> {
             MaterialKind::Perturbed { map, flip_invalid, shadowing, inner } => {
                 match map {
                     NormalMap::Normal(color) => self.color("normalmap", *color)?,
+                    NormalMap::Tangent { normal, scale } => self.tangent_map(*normal, *scale)?,
                     NormalMap::Bump { height, scale } => {
                         self.scalar("height", *height)?;
                         self.xml.float("scale", *scale);
@@ -259,7 +260,7 @@ fn plugin(kind: &MaterialKind) -> &'static str {
         MaterialKind::Blend { .. } => "blendbsdf",
         MaterialKind::Mixture { parts } if parts.is_empty() => "diffuse",
         MaterialKind::Mixture { .. } => "blendbsdf",
-        MaterialKind::Perturbed { map: NormalMap::Normal(_), .. } => "normalmap",
+        MaterialKind::Perturbed { map: NormalMap::Normal(_) | NormalMap::Tangent { .. }, .. } => "normalmap",
         MaterialKind::Perturbed { map: NormalMap::Bump { .. }, .. } => "bumpmap",
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DMat4};
 
+use super::bake::Baked;
 use super::{ExportError, Writer};
 use crate::spectrum::linear_from_srgb;
 use crate::{Color, Image, Rgb, Scalar, TexelFilter, Texels, TextureId, TextureKind, WrapMode};
@@ -31,6 +32,67 @@ impl Writer<'_> {
         }
     }
 
+    /// A normal map of glTF. Mitsuba's has the same axes but where texture coordinates are mirrored.
+    pub(super) fn tangent_map(&mut self, normal: Color, scale: f32) -> Result<(), ExportError> {
+        let Color::Texture(id) = normal else { return self.color("normalmap", normal) };
+        if scale == 1.0 {
+            return self.texture("normalmap", id);
+        }
+        let flatter = |texel: [f32; 3]| {
+            let [x, y, z] = texel.map(|c| 2.0 * c - 1.0);
+            let n = glam::Vec3::new(scale * x, scale * y, z).normalize_or(glam::Vec3::Z);
+            n.to_array().map(|c| 0.5 * (c + 1.0))
+        };
+        match self.bake(id) {
+            Some(baked) => self.baked_texture("normalmap", baked.map(flatter)),
+            None => self.texture("normalmap", id),
+        }
+    }
+
+    /// A picture that was made here.
+    fn baked_texture(&mut self, name: &str, baked: Baked) -> Result<(), ExportError> {
+        self.bitmap(name, &baked.image, baked.filter, baked.wrap)?;
+        self.xml.transform("to_uv", matrix4(baked.uv_from_surface));
+        self.xml.close("texture");
+        self.scaled.push(baked.image);
+        Ok(())
+    }
+
+    /// Notes something once.
+    fn note(&mut self, note: &str) {
+        if !self.notes.iter().any(|known| known == note) {
+            self.notes.push(note.into());
+        }
+    }
+
+    /// The beginning of a `bitmap` texture.
+    fn bitmap(
+        &mut self,
+        name: &str,
+        image: &Arc<Image>,
+        filter: TexelFilter,
+        wrap: WrapMode,
+    ) -> Result<(), ExportError> {
+        let (file, raw) = self.image(image)?;
+        self.xml.open("texture", &[("type", "bitmap"), ("name", name)]);
+        self.xml.value("string", "filename", &file);
+        if raw {
+            self.xml.value("boolean", "raw", "true");
+        }
+        let filter = match filter {
+            TexelFilter::Nearest => "nearest",
+            TexelFilter::Bilinear => "bilinear",
+        };
+        self.xml.value("string", "filter_type", filter);
+        let wrap = match wrap {
+            WrapMode::Repeat => "repeat",
+            WrapMode::Mirror => "mirror",
+            WrapMode::Clamp => "clamp",
+        };
+        self.xml.value("string", "wrap_mode", wrap);
+        Ok(())
+    }
+
     /// A texture, written in full wherever it is used: Mitsuba shares nothing between two uses but the file.
     pub(super) fn texture(&mut self, name: &str, id: TextureId) -> Result<(), ExportError> {
         self.scaled_texture(name, id, [1.0; 3])
@@ -48,30 +110,12 @@ impl Writer<'_> {
         let texture = &self.scene.textures[id.0 as usize];
         match &texture.kind {
             TextureKind::Bitmap { image, filter, wrap } => {
-                let (file, raw) = match factor {
-                    [1.0, 1.0, 1.0] => self.image(image)?,
-                    _ => {
-                        let image = Arc::new(scaled_image(image, factor));
-                        self.scaled.push(Arc::clone(&image));
-                        self.image(&image)?
-                    }
+                let image = match factor {
+                    [1.0, 1.0, 1.0] => Arc::clone(image),
+                    _ => Arc::new(scaled_image(image, factor)),
                 };
-                self.xml.open("texture", &[("type", "bitmap"), ("name", name)]);
-                self.xml.value("string", "filename", &file);
-                if raw {
-                    self.xml.value("boolean", "raw", "true");
-                }
-                let filter = match filter {
-                    TexelFilter::Nearest => "nearest",
-                    TexelFilter::Bilinear => "bilinear",
-                };
-                self.xml.value("string", "filter_type", filter);
-                let wrap = match wrap {
-                    WrapMode::Repeat => "repeat",
-                    WrapMode::Mirror => "mirror",
-                    WrapMode::Clamp => "clamp",
-                };
-                self.xml.value("string", "wrap_mode", wrap);
+                self.bitmap(name, &image, *filter, *wrap)?;
+                self.scaled.push(image);
             }
             TextureKind::Checkerboard { color0, color1 } => {
                 self.xml.open("texture", &[("type", "checkerboard"), ("name", name)]);
@@ -93,6 +137,13 @@ impl Writer<'_> {
                 self.xml.float("scale", scale * factor[1]);
                 self.xml.close("texture");
                 return Ok(());
+            }
+            TextureKind::Channel { .. } | TextureKind::Product { .. } => {
+                let Some(baked) = self.bake(id) else {
+                    self.note("a product of textures that do not fit on each other is grey 0.5");
+                    return self.color(name, Color::Constant([0.5; 3]));
+                };
+                return self.baked_texture(name, baked.map(|texel| times(texel, factor)));
             }
         }
         self.xml.transform("to_uv", matrix4(texture.uv_from_surface));

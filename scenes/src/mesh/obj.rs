@@ -3,6 +3,8 @@
 //! A reader of our own because a ready one would have to be fed a filtered copy and asked again for the line of every
 //! error: groups split vertices that faces share, comments need not be UTF-8, and coordinates need `f64` to the end.
 
+mod parts;
+
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -12,6 +14,7 @@ use super::polygon::{self, triangulate};
 use super::raw::{Positions, RawMesh};
 use super::{LoadedMesh, MeshOptions, Note, mesh_error};
 use crate::SceneError;
+pub(crate) use parts::{ObjPart, read_parts};
 
 /// "No texture coordinate" or "no normal" in a corner.
 const ABSENT: u32 = u32::MAX;
@@ -36,13 +39,20 @@ struct Statements {
     /// Position, texture coordinate and normal of each corner of each face, counted from 0.
     corners: Vec<[u32; 3]>,
     faces: Vec<Face>,
+    /// Where the material or the object changes, in the order of the faces.
+    changes: Vec<parts::Change>,
+    /// Material libraries: line and the rest of it.
+    libraries: Vec<(u32, String)>,
+    /// The smoothing group that is on; 0 for none.
+    smoothing: u32,
     notes: Vec<Note>,
 }
 
-/// A face: its line and where its corners end.
+/// A face: its line, its smoothing group and where its corners end.
 #[derive(Debug)]
 struct Face {
     line: u32,
+    smoothing: u32,
     end: usize,
 }
 
@@ -101,9 +111,11 @@ impl Statements {
                     let message = format!("face with {corners} corners dropped");
                     self.notes.push(Note { line: number, message });
                 } else {
-                    self.faces.push(Face { line: number, end: self.corners.len() });
+                    let smoothing = self.smoothing;
+                    self.faces.push(Face { line: number, smoothing, end: self.corners.len() });
                 }
             }
+            Some(word @ (b"usemtl" | b"o" | b"mtllib" | b"s")) => self.grouping(word, line, number),
             _ => {}
         }
         Ok(())

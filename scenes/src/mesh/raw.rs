@@ -9,7 +9,7 @@ use crate::{AttributeDomain, Mesh, MeshAttribute};
 
 /// A mesh as it came out of its file: indices are in range, values may be anything.
 #[derive(Debug, Default)]
-pub(super) struct RawMesh {
+pub(crate) struct RawMesh {
     pub positions: Positions,
     /// One a vertex, or none; a zero or non-finite one is "not given".
     pub normals: Vec<[f32; 3]>,
@@ -27,7 +27,7 @@ pub(super) struct RawMesh {
 
 /// Vertex positions in the precision of the file.
 #[derive(Debug)]
-pub(super) enum Positions {
+pub(crate) enum Positions {
     Single(Vec<[f32; 3]>),
     Double(Vec<[f64; 3]>),
 }

@@ -131,7 +131,10 @@ impl Reader<'_> {
         match &self.scene.textures[id.0 as usize].kind {
             TextureKind::Bitmap { image, .. } => [image.width, image.height],
             TextureKind::Scaled { color, .. } => self.pixels(*color),
-            TextureKind::Checkerboard { .. } | TextureKind::MeshAttribute { .. } => [1, 1],
+            TextureKind::Checkerboard { .. }
+            | TextureKind::MeshAttribute { .. }
+            | TextureKind::Channel { .. }
+            | TextureKind::Product { .. } => [1, 1],
         }
     }
 
