@@ -176,6 +176,11 @@ const LAMP: &str = r#"<shape type="rectangle"><transform name="to_world"><rotate
 
 const LIGHTS: &[Named] = &[
     (
+        "area, cylinder",
+        false,
+        r#"<shape type="cylinder"><point name="p0" x="-2" y="-1.5" z="3.2"/><point name="p1" x="-0.5" y="-1" z="3.5"/><float name="radius" value="0.3"/><emitter type="area"><rgb name="radiance" value="12 10 8"/></emitter></shape>"#,
+    ),
+    (
         "area, sphere",
         true,
         r#"<shape type="sphere"><float name="radius" value="0.5"/><point name="center" x="-1" y="-1.5" z="3.5"/><emitter type="area"><rgb name="radiance" value="30 25 20"/></emitter></shape>"#,
@@ -219,6 +224,18 @@ const SHAPES: &[Named] = &[
         "cube, flipped",
         false,
         r#"<shape type="cube"><boolean name="flip_normals" value="true"/><transform name="to_world"><scale value="0.5"/><rotate z="1" angle="30"/><translate z="0.8"/></transform>{}</shape>"#,
+    ),
+    (
+        "cylinder",
+        false,
+        r#"<shape type="cylinder"><point name="p0" x="-0.6" y="0.2" z="0.5"/><point name="p1" x="0.5" y="-0.1" z="1.1"/><float name="radius" value="0.45"/>{}</shape>"#,
+    ),
+    (
+        "instances, one of them mirrored",
+        true,
+        r#"<shape type="shapegroup" id="two"><shape type="ply"><string name="filename" value="ball.ply"/>{}</shape><shape type="cylinder"><point name="p1" x="0.5" z="1.2"/><float name="radius" value="0.3"/><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape></shape>
+<shape type="instance"><ref id="two"/><transform name="to_world"><scale x="0.7" y="0.5" z="0.6"/><translate x="-0.5" z="0.8"/></transform></shape>
+<shape type="instance"><ref id="two"/><transform name="to_world"><scale x="-0.4" y="0.4" z="0.4"/><rotate x="1" angle="40"/><translate x="0.9" y="-0.3" z="0.7"/></transform></shape>"#,
     ),
     (
         "disk",
