@@ -11,16 +11,18 @@ mod report;
 mod rounds;
 mod verdict;
 
-use std::path::Path;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use limpid_frame::compare::{Family, Finding, Parts};
+use limpid_scenes::LoadOptions;
 use serde_json::{Value, json};
 
 use crate::cli::{Common, Crosscheck};
 use crate::error::CliError;
 use crate::progress::with_spinner;
-use crate::{output, words};
+use crate::{export, output, words};
 use environment::Environment;
 use mitsuba::Mitsuba;
 use ours::Ours;
@@ -83,9 +85,27 @@ struct Checked {
     seconds: f64,
 }
 
-/// What Mitsuba loads: the file itself. A scene in another format is to be exported here first.
-fn for_mitsuba(scene: &Path) -> Result<std::path::PathBuf, CliError> {
-    Ok(scene.to_owned())
+/// What Mitsuba loads.
+struct ForMitsuba {
+    file: PathBuf,
+    notes: Vec<String>,
+    /// Where an exported scene lies, for as long as it is needed.
+    _folder: Option<tempfile::TempDir>,
+}
+
+/// The user's own file where it is Mitsuba's; a scene in another format is exported.
+fn for_mitsuba(scene: &Path, options: &Crosscheck) -> Result<ForMitsuba, CliError> {
+    let other = |extension: &OsStr| ["gltf", "glb", "obj"].iter().any(|x| extension.eq_ignore_ascii_case(x));
+    if !scene.extension().is_some_and(other) {
+        return Ok(ForMitsuba { file: scene.to_owned(), notes: Vec::new(), _folder: None });
+    }
+    let failed = |source| CliError::Write { path: std::env::temp_dir(), source };
+    let folder = tempfile::tempdir().map_err(failed)?;
+    let file = folder.path().join("scene.xml");
+    let reading = LoadOptions { defines: options.reading.defines.clone(), strict: options.reading.strict };
+    let (_, mut notes) = export::write(&limpid_scenes::load(scene, &reading)?, &file)?;
+    notes.insert(0, "exported for Mitsuba: a fault of the reader would show in both pictures".into());
+    Ok(ForMitsuba { file, notes, _folder: Some(folder) })
 }
 
 fn check(
@@ -126,7 +146,7 @@ fn check(
             (outcome, picture.display().to_string(), notes)
         }
         (Some(environment), ..) => {
-            let file = for_mitsuba(scene)?;
+            let ForMitsuba { file, notes: of_export, _folder } = for_mitsuba(scene, options)?;
             let load = || Mitsuba::start(environment, &file, options, common);
             let mut mitsuba = with_spinner(common, "Mitsuba reads the scene", load)?;
             if mitsuba.size != size {
@@ -136,7 +156,8 @@ fn check(
                 );
                 return Err(CliError::File { path: scene.to_owned(), problem });
             }
-            let mut notes = std::mem::take(&mut mitsuba.notes);
+            let mut notes = of_export;
+            notes.append(&mut mitsuba.notes);
             notes.iter().for_each(|note| words::note(common, format_args!("note: {note}")));
             let other = format!("Mitsuba {} ({})", mitsuba.version, environment.variant);
             notes.insert(0, "both use a box filter and independent samples, whatever the file names".into());
