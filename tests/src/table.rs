@@ -233,7 +233,7 @@ const SHAPES: &[Named] = &[
     (
         "instances, one of them mirrored",
         true,
-        r#"<shape type="shapegroup" id="two"><shape type="ply"><string name="filename" value="ball.ply"/>{}</shape><shape type="cylinder"><point name="p1" x="0.5" z="1.2"/><float name="radius" value="0.3"/><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape></shape>
+        r#"<shape type="shapegroup" id="two"><shape type="ply"><string name="filename" value="ball.ply"/>{}</shape><shape type="cylinder"><point name="p1" x="0.5" y="0" z="1.2"/><float name="radius" value="0.3"/><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape></shape>
 <shape type="instance"><ref id="two"/><transform name="to_world"><scale x="0.7" y="0.5" z="0.6"/><translate x="-0.5" z="0.8"/></transform></shape>
 <shape type="instance"><ref id="two"/><transform name="to_world"><scale x="-0.4" y="0.4" z="0.4"/><rotate x="1" angle="40"/><translate x="0.9" y="-0.3" z="0.7"/></transform></shape>"#,
     ),
