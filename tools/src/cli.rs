@@ -151,7 +151,7 @@ pub struct Crosscheck {
     #[arg(long, value_name = "REF.exr", requires = "against_variance")]
     pub against: Option<PathBuf>,
     /// The variance of each pixel's mean in that picture, per channel: of independent passes, the variance between
-    /// them over their number.
+    /// them over their number. A frame of limpid's that has a variance layer may be named twice.
     #[arg(long, value_name = "V.exr", requires = "against")]
     pub against_variance: Option<PathBuf>,
     /// Another seed gives independent noise on both sides.

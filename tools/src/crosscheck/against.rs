@@ -26,7 +26,8 @@ pub fn picture(
     size: [usize; 2],
     splat: Splat,
 ) -> Result<(Halves, Vec<String>), CliError> {
-    let [mean, var] = [read_exr(picture)?, read_exr(variance)?];
+    let mean = read_exr(picture)?;
+    let var = if picture == variance { own_variance(picture, &mean)? } else { read_exr(variance)? };
     for (path, frame) in [(picture, &mean), (variance, &var)] {
         let of = |problem: String| CliError::File { path: path.to_owned(), problem };
         let found = [frame.width(), frame.height()];
@@ -58,6 +59,21 @@ pub fn picture(
         ));
     }
     Ok((Halves::One(Box::new(estimate)), notes))
+}
+
+/// The variance that a frame of limpid's has beside its picture: for a file that is named as its own variance.
+fn own_variance(path: &Path, frame: &Frame) -> Result<Frame, CliError> {
+    let mut variance = Frame::new(frame.width(), frame.height());
+    for channel in ["R", "G", "B"] {
+        let plane = frame.channel(&format!("variance.{channel}")).ok_or_else(|| CliError::File {
+            path: path.to_owned(),
+            problem: "has no variance beside its picture; render it with `--layers beauty.variance --sampler independent`, \
+                      or name the file that has it"
+                .into(),
+        })?;
+        variance.insert(channel, plane.to_vec());
+    }
+    Ok(variance)
 }
 
 /// limpid draws samples from the filter, so that its pixels are independent whatever the filter.
