@@ -114,10 +114,12 @@ fn check_version(document: &Document) -> Result<(), SceneError> {
     };
     match version {
         Some(version) if version.starts_with("2.") || version == "2" => Ok(()),
-        other => {
-            let problem = format!("glTF {}; 2.0 is read", other.unwrap_or("of no version"));
+        Some(other) => {
+            let version: String = other.chars().take(40).collect();
+            let problem = format!("glTF {version}; 2.0 is read");
             Err(asset.error("version", problem, "convert the file to glTF 2.0"))
         }
+        None => Err(asset.error("version", "not there", "name a glTF 2.0 file")),
     }
 }
 

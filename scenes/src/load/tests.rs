@@ -112,6 +112,29 @@ fn every_shared_scene_loads_or_says_why_not() {
     assert!(loaded >= 85, "{table:#?}");
 }
 
+#[test]
+fn gltf_models_have_the_triangles_that_their_table_says() {
+    let Some(shared) = shared() else { return };
+    for (name, triangles) in [
+        ("Box/Box.gltf", 12),
+        ("SimpleSparseAccessor/SimpleSparseAccessor.gltf", 12),
+        ("RiggedSimple/RiggedSimple.gltf", 188),
+        ("CesiumMan/CesiumMan.glb", 4_672),
+        ("MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb", 1_040_409),
+        ("DamagedHelmet/DamagedHelmet.glb", 15_452),
+        ("AttenuationTest/AttenuationTest.gltf", 292), // 232 in the file, some shown more than once
+        ("GlassBrokenWindow/GlassBrokenWindow.gltf", 987),
+        ("IridescenceSuzanne/IridescenceSuzanne.gltf", 11_808),
+    ] {
+        let scene = load(&shared.join("gltf").join(name), &LoadOptions::default()).unwrap();
+        let counts = scene.shapes.iter().map(|shape| match &shape.kind {
+            ShapeKind::Mesh(mesh) => mesh.triangles.len(),
+            _ => 0,
+        });
+        assert_eq!(counts.sum::<usize>(), triangles, "{name}");
+    }
+}
+
 /// Every OBJ, whatever is wrong with it, as the one shape of a scene.
 #[test]
 fn every_shared_obj_loads_or_names_its_line() {

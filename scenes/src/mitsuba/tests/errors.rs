@@ -206,12 +206,24 @@ fn errors_in_meshes_and_pictures_name_their_file() {
 }
 
 #[test]
-fn files_that_are_no_mitsuba_scenes_are_told_apart() {
+fn files_are_read_as_their_extension_says() {
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes, message) in [
-        ("a.gltf", &b"{\"asset\":{}}"[..], "a.gltf: asset.version: glTF of no version"),
+        ("a.gltf", &b"{\"asset\":{}}"[..], "a.gltf: asset.version: not there"),
+        (
+            "a.glb",
+            b"glTF\x02\0\0\0\x7f\x7f\x7f\x7f",
+            "a.glb: byte 8: container: 2139062143 bytes are announced, but the file has 12",
+        ),
+        ("a.obj", b"v 0 0 0\nf 1 2 99999999999\n", "a.obj:2:1: mesh: face with vertex 99999999999"),
         ("a.xml", b"\xff\xfe<\0", "a.xml: XML: the text is UTF-16"),
-        ("a.exr", b"\x76\x2f\x31\x01", "a.exr: scene: an EXR frame, not a scene"),
+        ("A.XML", b"<", "A.XML:1:"),
+        (
+            "a.ply",
+            b"ply",
+            "a.ply: scene: unknown extension \".ply\"\n  = help: scenes are read from .xml, .gltf, .glb, .obj",
+        ),
+        ("a", b"<scene/>", "a: scene: a scene file without extension"),
     ] {
         let path = folder.path().join(name);
         fs::write(&path, bytes).unwrap();
