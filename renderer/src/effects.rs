@@ -11,6 +11,8 @@ pub enum Effect {
     Environment,
     /// Light through surfaces.
     Transmission,
+    /// Insides of glass that take some of the light.
+    Absorption,
     /// Surfaces that are there in part only.
     Alpha,
     /// Shading normals turned by a picture of normals.
@@ -25,10 +27,11 @@ pub enum Effect {
 
 impl Effect {
     /// All effects that there are.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::DepthOfField,
         Self::Environment,
         Self::Transmission,
+        Self::Absorption,
         Self::Alpha,
         Self::NormalMaps,
         Self::BumpMaps,
@@ -42,6 +45,7 @@ impl Effect {
             Self::DepthOfField => "depth of field",
             Self::Environment => "environment",
             Self::Transmission => "transmission",
+            Self::Absorption => "absorption",
             Self::Alpha => "alpha",
             Self::NormalMaps => "normal maps",
             Self::BumpMaps => "bump maps",
@@ -80,12 +84,14 @@ pub fn effects(scene: &Scene) -> Vec<Called> {
     let bump_map =
         material(|kind| matches!(kind, MaterialKind::Perturbed { map: NormalMap::Bump { .. }, .. }));
     let transmission = material(MaterialKind::transmits);
+    let absorption = material(MaterialKind::absorbs);
     let instance = scene.shapes.iter().find(|shape| matches!(shape.kind, ShapeKind::Instance { .. }));
     let because = |what: &str, name: &String| format!("{what} \"{name}\"");
     [
         (Effect::DepthOfField, lens.map(|c| because("sensor", &c.name))),
         (Effect::Environment, environment.map(|l| because("emitter", &l.name))),
         (Effect::Transmission, transmission.map(|name| because("bsdf", name))),
+        (Effect::Absorption, absorption.map(|name| because("bsdf", name))),
         (Effect::Alpha, alpha.map(|name| because("bsdf", name))),
         (Effect::NormalMaps, normal_map.map(|name| because("bsdf", name))),
         (Effect::BumpMaps, bump_map.map(|name| because("bsdf", name))),
@@ -112,6 +118,8 @@ pub struct Counters {
     pub environment: u64,
     /// Directions sampled through a surface.
     pub transmission: u64,
+    /// Ways of paths through insides that absorb.
+    pub absorption: u64,
     /// Paths and light samples that went straight through a hole.
     pub alpha: u64,
     /// Shading normals turned by a picture of normals.
@@ -131,6 +139,7 @@ impl Counters {
         self.depth_of_field += other.depth_of_field;
         self.environment += other.environment;
         self.transmission += other.transmission;
+        self.absorption += other.absorption;
         self.alpha += other.alpha;
         self.normal_maps += other.normal_maps;
         self.bump_maps += other.bump_maps;
@@ -143,6 +152,7 @@ impl Counters {
             Effect::DepthOfField => self.depth_of_field,
             Effect::Environment => self.environment,
             Effect::Transmission => self.transmission,
+            Effect::Absorption => self.absorption,
             Effect::Alpha => self.alpha,
             Effect::NormalMaps => self.normal_maps,
             Effect::BumpMaps => self.bump_maps,

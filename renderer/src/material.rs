@@ -1,5 +1,6 @@
 //! From a scene's materials, with their textures and nesting, to the numbers of a [`Bsdf`] at a hit.
 
+mod absorption;
 mod flatten;
 mod perturb;
 mod principled;
@@ -12,8 +13,10 @@ use crate::bsdf::{
     Bsdf, Coating, Conductor, Dielectric, Diffuse, Ior, Lobes, Microfacet, Perturbation, Phong, Plastic,
     RoughConductor, RoughDielectric, RoughDiffuse, RoughPlastic, ThinDielectric, Turn, Ward,
 };
+use crate::color::Rgb;
 use crate::prepare::PrepareError;
 use crate::texture::{TexturePoint, Textures};
+pub use absorption::Absorption;
 pub use flatten::Map;
 use flatten::{Flatten, Piece, Share, Side};
 pub use perturb::Perturbed;
@@ -40,6 +43,8 @@ struct Sides {
     front: Side,
     back: Side,
     needs_tangent: bool,
+    /// Of the inside.
+    absorption: Option<Absorption>,
 }
 
 /// A model with what is constant over the surface worked out.
@@ -126,8 +131,9 @@ impl Materials {
         for outer in (0..scene.materials.len() as u32).map(MaterialId) {
             let [front, back] = Flatten { scene, coatings: &mut coatings, outer }.sides()?;
             let mut pieces = front.pieces.iter().chain(&back.pieces);
+            let absorption = pieces.clone().find_map(|piece| piece.model.absorption());
             let needs_tangent = pieces.any(|piece| piece.map.is_some() || piece.model.is_anisotropic());
-            materials.push(Sides { front, back, needs_tangent });
+            materials.push(Sides { front, back, needs_tangent, absorption });
         }
         Ok(Self { materials, coatings: coatings.tables })
     }
@@ -143,6 +149,17 @@ impl Materials {
     pub fn has_holes(&self, material: MaterialId) -> bool {
         let Sides { front, back, .. } = &self.materials[material.0 as usize];
         !front.holes.is_empty() || !back.holes.is_empty()
+    }
+
+    /// What the inside of the material absorbs.
+    #[inline]
+    pub fn absorption(&self, material: MaterialId) -> Option<&Absorption> {
+        self.materials[material.0 as usize].absorption.as_ref()
+    }
+
+    /// Whether the inside of any material absorbs.
+    pub fn absorb(&self) -> bool {
+        self.materials.iter().any(|sides| sides.absorption.is_some())
     }
 
     /// Share of the light that goes straight through, in [0, 1].
@@ -241,6 +258,15 @@ impl Materials {
 }
 
 impl Model {
+    /// What its inside absorbs.
+    fn absorption(&self) -> Option<Absorption> {
+        let Self::Gltf(limpid_scenes::GltfMaterial { attenuation: Some((distance, color)), .. }) = self
+        else {
+            return None;
+        };
+        Some(Absorption { color: Rgb::from_array(*color), distance: *distance })
+    }
+
     fn is_anisotropic(&self) -> bool {
         let is_stretched = |anisotropic: Scalar| anisotropic != Scalar::Constant(0.0);
         match self {

@@ -40,6 +40,8 @@ pub struct Prepared {
     pub(crate) origin: DVec3,
     /// Some surface lets light straight through.
     pub(crate) has_holes: bool,
+    /// The inside of some material absorbs.
+    pub(crate) has_absorption: bool,
     effects: Vec<Called>,
 }
 
@@ -80,9 +82,21 @@ impl Prepared {
         let materials = Materials::prepare(scene)?;
         let lights = Lights::new(scene, &geometry, &textures, origin, accel.radius());
         let has_holes = geometry.shapes.iter().any(|shape| materials.has_holes(shape.material));
+        let has_absorption = materials.absorb();
         let mut effects = effects(scene);
         effects.retain(|called| called.effect != Effect::DepthOfField || camera.lens.is_some());
-        Ok(Self { geometry, accel, materials, textures, lights, camera, origin, has_holes, effects })
+        Ok(Self {
+            geometry,
+            accel,
+            materials,
+            textures,
+            lights,
+            camera,
+            origin,
+            has_holes,
+            has_absorption,
+            effects,
+        })
     }
 
     /// The effects that the scene calls for, seen by this camera.

@@ -34,8 +34,7 @@ pub struct GltfMaterial {
     pub transmission: Scalar,
     /// No inside (`thicknessFactor` 0): light goes through without bending.
     pub thin: bool,
-    /// White light that has gone this distance inside, in world space, has this colour; `None`: the inside is clear. Not
-    /// rendered yet.
+    /// White light that has gone this distance inside, in world space, has this colour; `None`: the inside is clear.
     pub attenuation: Option<(f32, Rgb)>,
 }
 

@@ -29,6 +29,11 @@ impl MaterialKind {
         }
     }
 
+    /// Whether its inside takes some of the light.
+    pub fn absorbs(&self) -> bool {
+        matches!(self, Self::Gltf(p) if p.attenuation.is_some())
+    }
+
     /// The materials that it is made of.
     pub fn inner(&self) -> Vec<MaterialId> {
         match self {

@@ -2,6 +2,7 @@
 
 use limpid_frame::Layer;
 
+use super::absorb::absorb;
 use super::connect::{connect, through_holes};
 use super::emit::{emit_background, emit_surface};
 use super::generate::generate;
@@ -144,6 +145,9 @@ fn surface(cx: &Context, ray: &Ray, hit: &Hit) -> Option<Surface> {
 
 #[inline]
 fn emit(cx: &Context, path: &mut Path, ray: &Ray, surface: Option<&Surface>, counters: &mut Counters) {
+    if cx.scene.has_absorption {
+        absorb(cx, path, ray, surface, counters);
+    }
     match surface {
         Some(surface) => emit_surface(cx, path, ray, surface),
         None => emit_background(cx, path, ray, counters),

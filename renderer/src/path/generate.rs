@@ -28,6 +28,7 @@ pub fn generate(cx: &Context, pixel: [u32; 2], index: u32, features: &mut Sample
         edges: 1,
         eta_scale: 1.0,
         delta: true,
+        inside: None,
         split: false,
         straight: false,
         present: false,

@@ -2,13 +2,14 @@
 //! Russian roulette, over batches of paths.
 //!
 //! ```text
-//! generate → [ extend → emit → shade → connect → survive ]* → accumulate
+//! generate → [ extend → (absorb) → emit → shade → connect → survive ]* → accumulate
 //! ```
 //!
 //! Each stage is a plain function over the batch around a core for one path; [`depth_first`] drives the same cores one
 //! path at a time and is what the tests compare with. Queues stay in pixel order: the order of rays is worth more
 //! than that of materials.
 
+mod absorb;
 mod batch;
 mod connect;
 mod emit;
@@ -17,6 +18,7 @@ mod shade;
 mod survive;
 
 use glam::Vec3;
+use limpid_scenes::MaterialId;
 
 #[cfg(test)]
 pub use batch::depth_first;
@@ -62,6 +64,8 @@ pub struct Path {
     pub eta_scale: f32,
     /// The current direction was drawn from a delta lobe, or is the camera's: no light sample stands for it.
     pub delta: bool,
+    /// What the current ray goes through, where that absorbs.
+    pub inside: Option<MaterialId>,
     /// A non-delta vertex has been met.
     pub split: bool,
     /// The last event let the path go straight on: a hole in a surface, which counts as no vertex.

@@ -4,6 +4,7 @@ use glam::Vec3;
 use limpid_frame::Layer;
 use limpid_scenes::NormalMap;
 
+use super::absorb::{inside, left};
 use super::{Connection, Context, Path, mis_weight};
 use crate::accel::{NONE, Ray};
 use crate::bsdf::Lobes;
@@ -80,14 +81,21 @@ pub fn shade(
     if bsdf.has_non_delta() {
         let [choice, u, v] = path.sampler.draw3(Dim::Light(bounce));
         if let Some(light) = scene.lights.sample(surface.p, choice, glam::Vec2::new(u, v), &scene.textures) {
-            let value = bsdf.eval(wo, frame.to_local(light.wi));
+            let wi = frame.to_local(light.wi);
+            let value = bsdf.eval(wo, wi);
             if !value.f_cos.is_zero() && light.radiance != Rgb::ZERO {
                 let partner = if light.delta { 0.0 } else { value.pdf };
                 let weight = mis_weight(light.pdf, partner) / light.pdf;
+                let mut radiance = light.radiance;
+                if scene.has_absorption {
+                    let inside =
+                        if wi.z * wo.z < 0.0 { inside(cx, surface, wo.z > 0.0) } else { path.inside };
+                    radiance *= left(cx, inside, light.t_max);
+                }
                 connection = Some(Connection {
                     ray: Ray { t_max: light.t_max, skip: light.skip, ..surface.spawn(light.wi) },
                     through: through(path, value.f_cos * weight),
-                    radiance: light.radiance,
+                    radiance,
                     edges: path.edges + 1,
                     at_feature,
                 });
@@ -116,7 +124,10 @@ pub fn shade(
     path.eta_scale *= sample.eta * sample.eta;
     path.edges += 1;
     path.p = surface.p;
-    counters.transmission += u64::from(sample.wi.z * wo.z < 0.0);
+    if sample.wi.z * wo.z < 0.0 {
+        counters.transmission += 1;
+        path.inside = if scene.has_absorption { inside(cx, surface, wo.z > 0.0) } else { None };
+    }
     Scattered { connection, next: Some(surface.spawn(frame.to_render(sample.wi).normalize())) }
 }
 

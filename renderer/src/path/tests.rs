@@ -1,3 +1,4 @@
+mod absorption;
 mod alpha;
 
 use glam::{DMat4, DVec3};

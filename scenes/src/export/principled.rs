@@ -48,6 +48,9 @@ impl Writer<'_> {
             "the glTF material is written as Mitsuba's principled: sheen and the specular weight and colour are left out, the coat differs"
                 .into(),
         );
+        if p.attenuation.is_some() {
+            self.notes.push("what the inside of a glTF material absorbs is left out".into());
+        }
         if p.thin && p.transmits() {
             return self.principled_thin(&PrincipledThin {
                 base_color: p.base_color,

@@ -3,6 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use base64::alphabet;
+use base64::engine::{DecodePaddingMode, Engine, GeneralPurpose, GeneralPurposeConfig};
+
 use super::Reader;
 use super::json::{EXPORT_AGAIN, Item};
 use crate::SceneError;
@@ -83,7 +86,7 @@ impl Reader<'_> {
         let whole = |bytes: Vec<u8>| Bytes { range: 0..bytes.len(), buffer: Arc::new(bytes) };
         if let Some(data) = uri.strip_prefix("data:") {
             return match data.split_once(',') {
-                Some((kind, text)) if kind.ends_with(";base64") => base64(text.as_bytes()).map(whole),
+                Some((kind, text)) if kind.ends_with(";base64") => base64(text).map(whole),
                 Some((_, text)) => Some(whole(unescape(text))),
                 None => None,
             }
@@ -130,28 +133,19 @@ fn shorten(text: &str) -> String {
     text.chars().take(80).collect()
 }
 
-/// RFC 4648, with or without padding; blanks and line ends are passed over.
-fn base64(text: &[u8]) -> Option<Vec<u8>> {
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 3);
-    let (mut bits, mut count) = (0u32, 0);
-    for &byte in text.iter().filter(|byte| !byte.is_ascii_whitespace()) {
-        let digit = match byte {
-            b'A'..=b'Z' => byte - b'A',
-            b'a'..=b'z' => byte - b'a' + 26,
-            b'0'..=b'9' => byte - b'0' + 52,
-            b'+' | b'-' => 62,
-            b'/' | b'_' => 63,
-            b'=' => continue,
-            _ => return None,
-        };
-        bits = bits << 6 | u32::from(digit);
-        count += 6;
-        if count >= 8 {
-            count -= 8;
-            bytes.push((bits >> count) as u8);
-        }
-    }
-    Some(bytes)
+/// RFC 4648, in either alphabet, with or without padding; blanks and line ends are passed over.
+fn base64(text: &str) -> Option<Vec<u8>> {
+    const LENIENT: GeneralPurposeConfig = GeneralPurposeConfig::new()
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+        .with_decode_allow_trailing_bits(true);
+    const ENGINE: GeneralPurpose = GeneralPurpose::new(&alphabet::STANDARD, LENIENT);
+    let plain = |c: char| match c {
+        '-' => '+',
+        '_' => '/',
+        c => c,
+    };
+    let text: String = text.chars().filter(|c| !c.is_whitespace()).map(plain).collect();
+    ENGINE.decode(text).ok()
 }
 
 /// `%41` becomes `A`; what is no such code stays.
@@ -185,9 +179,9 @@ mod tests {
         for (text, bytes) in
             [("", ""), ("Zg==", "f"), ("Zm8=", "fo"), ("Zm9vYg", "foob"), ("Zm9v\nYmFy", "foobar")]
         {
-            assert_eq!(base64(text.as_bytes()).as_deref(), Some(bytes.as_bytes()), "{text}");
+            assert_eq!(base64(text).as_deref(), Some(bytes.as_bytes()), "{text}");
         }
-        assert_eq!(base64(b"Zm9*"), None);
+        assert_eq!(base64("Zm9*"), None);
     }
 
     #[test]

@@ -248,7 +248,6 @@ impl Reader<'_> {
                 && color != [1.0; 3]
             {
                 material.attenuation = Some((distance, color));
-                self.warn(&volume.path, "what the inside absorbs is not rendered yet; it is clear");
             }
         }
         Ok(material)

@@ -1,0 +1,116 @@
+//! Contact sheets for the docs: what limpid shows, beside what Mitsuba shows, as one SVG.
+//!
+//! ```sh
+//! cargo run --release -p limpid-tests --example sheet -- materials docs/pictures/materials.svg
+//! cargo run --release -p limpid-tests --example sheet -- scenes docs/pictures/models.svg MODEL.glb…
+//! ```
+//!
+//! Where Mitsuba cannot be had, or refuses a scene, limpid's picture stands alone. Build the program first.
+
+use std::path::{Path, PathBuf};
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use limpid_tests::start::call;
+use limpid_tests::table;
+
+/// Side of a picture in pixels, samples of each pixel, and pairs in a row.
+const SIDE: u32 = 144;
+const SPP: u32 = 256;
+const COLUMNS: usize = 4;
+/// Height of the words under a pair, and the way between pairs.
+const WORDS: u32 = 18;
+const GAP: u32 = 12;
+
+/// A pair of PNGs under one name; the second may be missing.
+struct Pair {
+    name: String,
+    ours: Vec<u8>,
+    theirs: Option<Vec<u8>>,
+}
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let work = tempfile::tempdir().expect("a temporary folder");
+    let (scenes, out) = match words[..] {
+        ["materials", out] => {
+            let rows = table::write_previews(work.path()).expect("writes");
+            (rows.into_iter().map(|(row, path)| (row.name, path)).collect(), out)
+        }
+        ["scenes", out, ref files @ ..] if !files.is_empty() => {
+            let here = std::env::current_dir().expect("there is a folder");
+            let named = files.iter().map(|file| (name(Path::new(file)), here.join(file)));
+            (named.collect::<Vec<_>>(), out)
+        }
+        _ => {
+            eprintln!("sheet materials OUT.svg | sheet scenes OUT.svg SCENE…");
+            std::process::exit(2);
+        }
+    };
+    let mut pairs = Vec::new();
+    for (name, scene) in scenes {
+        match pair(&name, &scene, work.path()) {
+            Ok(pair) => pairs.push(pair),
+            Err(problem) => eprintln!("{name}: {problem}"),
+        }
+    }
+    std::fs::write(out, svg(&pairs)).unwrap_or_else(|e| panic!("{out}: {e}"));
+    println!("{out}: {} pairs", pairs.len());
+}
+
+/// `Box.gltf` of `a/Box/Box.gltf`.
+fn name(file: &Path) -> String {
+    file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// Both pictures of a scene, as the report of `crosscheck` has them, else limpid's alone.
+fn pair(name: &str, scene: &Path, work: &Path) -> Result<Pair, String> {
+    let report = work.join("report");
+    let (size, spp) = (format!("{SIDE}x{SIDE}"), SPP.to_string());
+    let words = ["--size", &size, "--spp", &spp, "--quiet"].map(PathBuf::from);
+    let with = |command: &str, out: &[&Path]| {
+        let command = [PathBuf::from(command), scene.to_owned()];
+        call(work, command.iter().chain(&words).map(PathBuf::as_path).chain(out.iter().copied()))
+    };
+    let checked = with("crosscheck", &[Path::new("-o"), &report]);
+    if checked.code <= 1 {
+        let read = |file: &str| std::fs::read(report.join(file)).map_err(|e| format!("{file}: {e}"));
+        return Ok(Pair { name: name.into(), ours: read("limpid.png")?, theirs: Some(read("mitsuba.png")?) });
+    }
+    eprintln!("{name}: {}", checked.stderr.trim());
+    let [frame, png] = ["alone.exr", "alone.png"].map(|file| work.join(file));
+    let rendered = with("render", &[Path::new("-o"), &frame, Path::new("--png"), &png]);
+    if rendered.code != 0 {
+        return Err(rendered.stderr);
+    }
+    let ours = std::fs::read(&png).map_err(|e| e.to_string())?;
+    Ok(Pair { name: name.into(), ours, theirs: None })
+}
+
+fn svg(pairs: &[Pair]) -> String {
+    let [wide, high] = [2 * SIDE + GAP, SIDE + WORDS + GAP];
+    let columns = COLUMNS.min(pairs.len()).max(1);
+    let rows = pairs.len().div_ceil(columns);
+    let [width, height] = [wide * columns as u32 + GAP, high * rows as u32 + GAP];
+    let mut svg = format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" font-family="sans-serif" font-size="12">
+<rect width="100%" height="100%" fill="#fff"/>
+"##
+    );
+    for (i, pair) in pairs.iter().enumerate() {
+        let [x, y] = [GAP + wide * (i % columns) as u32, GAP + high * (i / columns) as u32];
+        for (k, png) in [Some(&pair.ours), pair.theirs.as_ref()].into_iter().enumerate() {
+            let Some(png) = png else { continue };
+            let data = STANDARD.encode(png);
+            let x = x + SIDE * k as u32;
+            svg += &format!(
+                r#"<image x="{x}" y="{y}" width="{SIDE}" height="{SIDE}" href="data:image/png;base64,{data}"/>"#
+            );
+            svg.push('\n');
+        }
+        let name = pair.name.replace('&', "&amp;").replace('<', "&lt;");
+        svg += &format!("<text x=\"{x}\" y=\"{}\" fill=\"#222\">{name}</text>\n", y + SIDE + 14);
+    }
+    svg + "</svg>\n"
+}
