@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 pub fn limpid() -> Command {
     let mut folder = std::env::current_exe().expect("this test has a path");
     folder.pop(); // the test's name
-    if folder.ends_with("deps") {
+    if folder.ends_with("deps") || folder.ends_with("examples") {
         folder.pop();
     }
     let program = folder.join(format!("limpid{}", std::env::consts::EXE_SUFFIX));
