@@ -44,10 +44,12 @@ mod nearest;
 mod obj;
 mod principled;
 mod scene;
+mod shapes;
 mod spectrum;
 mod standins;
 #[cfg(test)]
 mod testing;
+mod textures;
 
 pub use cameras::*;
 pub use error::SceneError;
@@ -55,5 +57,8 @@ pub use export::{ExportError, Exported, export_mitsuba};
 pub use gltf_material::GltfMaterial;
 pub use lights::*;
 pub use load::{LoadOptions, load, load_str};
+pub use materials::*;
 pub use principled::{Principled, PrincipledThin};
 pub use scene::*;
+pub use shapes::*;
+pub use textures::*;
