@@ -62,6 +62,19 @@ impl Default for GltfMaterial {
 }
 
 impl GltfMaterial {
+    /// All of its numbers that may be textured.
+    pub fn scalars_mut(&mut self) -> [&mut Scalar; 7] {
+        [
+            &mut self.metallic,
+            &mut self.roughness,
+            &mut self.specular,
+            &mut self.clearcoat,
+            &mut self.clearcoat_roughness,
+            &mut self.sheen_roughness,
+            &mut self.transmission,
+        ]
+    }
+
     /// Whether some light goes through, somewhere.
     pub fn transmits(&self) -> bool {
         self.transmission != Scalar::Constant(0.0)

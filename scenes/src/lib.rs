@@ -27,6 +27,7 @@
 //! # Ok::<(), limpid_scenes::SceneError>(())
 //! ```
 
+mod as_mitsuba;
 mod cameras;
 mod daylight;
 mod error;
@@ -51,6 +52,7 @@ mod standins;
 mod testing;
 mod textures;
 
+pub use as_mitsuba::as_mitsuba;
 pub use cameras::*;
 pub use error::SceneError;
 pub use export::{ExportError, Exported, export_mitsuba};

@@ -275,6 +275,32 @@ impl MaterialKind {
         matches!(self, Self::Gltf(p) if p.attenuation.is_some())
     }
 
+    /// Its parameters that are numbers and may be textured; not the heights of a bump map.
+    pub fn scalars_mut(&mut self) -> Vec<&mut Scalar> {
+        match self {
+            Self::RoughConductor { alpha_u, alpha_v, .. }
+            | Self::RoughDielectric { alpha_u, alpha_v, .. }
+            | Self::Ward { alpha_u, alpha_v, .. } => vec![alpha_u, alpha_v],
+            Self::RoughDiffuse { alpha: one, .. }
+            | Self::Phong { exponent: one, .. }
+            | Self::Mask { opacity: one, .. }
+            | Self::Blend { weight: one, .. } => vec![one],
+            Self::Principled(p) => p.scalars_mut().into(),
+            Self::PrincipledThin(p) => p.scalars_mut().into(),
+            Self::Gltf(p) => p.scalars_mut().into(),
+            Self::Diffuse { .. }
+            | Self::Conductor { .. }
+            | Self::Dielectric { .. }
+            | Self::ThinDielectric { .. }
+            | Self::Plastic { .. }
+            | Self::RoughPlastic { .. }
+            | Self::TwoSided { .. }
+            | Self::Null
+            | Self::Mixture { .. }
+            | Self::Perturbed { .. } => Vec::new(),
+        }
+    }
+
     /// The materials that it is made of.
     pub fn inner(&self) -> Vec<MaterialId> {
         match self {

@@ -54,6 +54,22 @@ impl Default for Principled {
 }
 
 impl Principled {
+    /// All of its numbers that may be textured.
+    pub fn scalars_mut(&mut self) -> [&mut Scalar; 10] {
+        [
+            &mut self.roughness,
+            &mut self.anisotropic,
+            &mut self.metallic,
+            &mut self.spec_trans,
+            &mut self.spec_tint,
+            &mut self.sheen,
+            &mut self.sheen_tint,
+            &mut self.flatness,
+            &mut self.clearcoat,
+            &mut self.clearcoat_gloss,
+        ]
+    }
+
     /// The index of refraction of Burley's `specular` in \[0, 1\], which is the reflectance at normal incidence over 0.08.
     pub fn eta_of_specular(specular: f32) -> f32 {
         2.0 / (1.0 - (0.08 * specular).sqrt()) - 1.0
@@ -106,5 +122,22 @@ impl Default for PrincipledThin {
             flatness: zero,
             diff_trans: zero,
         }
+    }
+}
+
+impl PrincipledThin {
+    /// All of its numbers that may be textured.
+    pub fn scalars_mut(&mut self) -> [&mut Scalar; 9] {
+        [
+            &mut self.roughness,
+            &mut self.anisotropic,
+            &mut self.spec_trans,
+            &mut self.eta,
+            &mut self.spec_tint,
+            &mut self.sheen,
+            &mut self.sheen_tint,
+            &mut self.flatness,
+            &mut self.diff_trans,
+        ]
     }
 }

@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 
 use limpid_frame::compare::{Comparison, Estimate, FALSE_ALARMS, Halves, Passes, compare};
 use limpid_frame::{Frame, read_exr};
-use limpid_renderer::{Prepared, Progress, Sampler, Settings, render};
-use limpid_scenes::{LoadOptions, Scene, load};
+use limpid_renderer::{Prepared, Progress, Sampler, Settings, Splat, render};
+use limpid_scenes::{LoadOptions, Scene, as_mitsuba, load};
 
 /// Linear Rec. 709 to CIE XYZ (IEC 61966-2-1).
 const XYZ_FROM_RGB: [[f64; 3]; 3] =
@@ -58,7 +58,9 @@ fn to_xyz(rgb: [&[f32]; 3]) -> [Vec<f32>; 3] {
     })
 }
 
-fn reference(mean: &Path) -> Halves {
+/// Mitsuba adds a sample to all pixels in the filter's reach, and to fewer at the border, which is left out. The variance
+/// is that of a sample, as if pixels were independent: right for the means of many, whose filters add up to 1.
+fn reference(mean: &Path, splat: Splat) -> Halves {
     let xyz = |path: &Path, scale: f64| {
         let file = read_exr(path).unwrap_or_else(|e| panic!("{e}"));
         let mut frame = Frame::new(file.width(), file.height());
@@ -73,7 +75,11 @@ fn reference(mean: &Path) -> Halves {
         let plane = variance.channel(name).expect("was put in").iter().map(|v| v.max(0.0)).collect();
         variance.insert(name, plane); // what does not vary was rounded
     }
-    Halves::One(Box::new(Estimate::of_frames(&xyz(mean, 1.0), &variance).expect("they are of one size")))
+    let mut estimate = Estimate::of_frames(&xyz(mean, 1.0), &variance).expect("they are of one size");
+    if splat.radius > 0.5 {
+        estimate.leave_out_border(splat.radius.ceil() as usize);
+    }
+    Halves::One(Box::new(estimate))
 }
 
 /// `PASSES` pictures of `spp` samples each with seeds from `first` on, in XYZ.
@@ -92,15 +98,17 @@ fn round(scene: &Scene, prepared: &Prepared, first: u64, spp: u32) -> Halves {
 }
 
 /// Renders until a difference of 0.5 % of the picture would show, as far as the reference allows.
-fn compared(path: &Path, reference: &Halves) -> (Comparison, u32) {
+fn compared(path: &Path, mean: &Path) -> (Comparison, u32) {
     let options =
         LoadOptions { defines: vec![("integrator".into(), integrator(path))], ..Default::default() };
-    let scene = load(path, &options).unwrap_or_else(|e| panic!("{e}"));
+    let mut scene = load(path, &options).unwrap_or_else(|e| panic!("{e}"));
+    as_mitsuba(&mut scene);
+    let reference = reference(mean, Splat::of(scene.cameras[0].film.filter));
     let prepared = Prepared::new(&scene, 0).unwrap_or_else(|e| panic!("{e}"));
     let mut ours = round(&scene, &prepared, 0, FIRST);
     let mut spp = PASSES * FIRST;
     loop {
-        let comparison = compare(&ours, reference);
+        let comparison = compare(&ours, &reference);
         if comparison.detectable_bias <= TARGET || spp >= MOST {
             return (comparison, spp);
         }
@@ -125,7 +133,7 @@ fn check(in_time: impl Fn(&str) -> bool) {
         if has_medium || !name.contains(&only) || !in_time(&name) {
             continue;
         }
-        let (found, spp) = compared(&scene, &reference(&mean));
+        let (found, spp) = compared(&scene, &mean);
         let agrees = found.p >= FALSE_ALARMS;
         let line = format!(
             "| {name} | {:+.2} % | {:.2} % | {:.2} | {spp} | {} |",

@@ -3,7 +3,6 @@
 //! One module a subcommand; each takes its options and gives back nothing or a [`CliError`], which knows
 //! its exit code. What is for machines goes to standard output, what is for people to standard error.
 
-mod as_mitsuba;
 mod cli;
 mod crosscheck;
 mod denoise;

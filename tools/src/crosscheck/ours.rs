@@ -9,7 +9,7 @@ use limpid_scenes::PixelFilter;
 use crate::cli::{Common, Crosscheck};
 use crate::error::CliError;
 use crate::progress::with_spinner;
-use crate::{as_mitsuba, scene, system, words};
+use crate::{scene, system, words};
 
 /// Bytes that a comparison keeps a pixel: the moments of both pictures' passes and halves.
 const BYTES_PER_PIXEL: u64 = 700;
@@ -40,7 +40,7 @@ impl Ours {
         }
         let splat = Splat::of(scene.cameras[0].film.filter);
         if options.against.is_none() {
-            as_mitsuba::apply(&mut scene);
+            limpid_scenes::as_mitsuba(&mut scene);
             scene.cameras[0].film.filter = PixelFilter::Box;
         }
         let mut settings = Settings::for_camera(&scene, 0);

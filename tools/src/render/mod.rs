@@ -17,7 +17,7 @@ use crate::denoise::Denoising;
 use crate::error::CliError;
 use crate::output::Pictures;
 use crate::progress::{with_bar, with_spinner};
-use crate::{as_mitsuba, interrupt, output, scene, system, words};
+use crate::{interrupt, output, scene, system, words};
 use records::Records;
 use report::{Report, Seconds};
 
@@ -34,7 +34,7 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
     let begin = Instant::now();
     let mut scene = scene::load(&options.scene, &options.reading, common)?;
     if options.as_mitsuba {
-        as_mitsuba::apply(&mut scene);
+        limpid_scenes::as_mitsuba(&mut scene);
     }
     seconds.load = begin.elapsed().as_secs_f64();
 
