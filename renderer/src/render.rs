@@ -160,7 +160,7 @@ fn pass(
     let cx = Context {
         scene,
         camera: Camera::new(&scene.camera, settings.width, settings.height),
-        filter: PixelFilterSampler::new(scene.camera.film.filter),
+        filter: PixelFilterSampler::of(&scene.camera.film),
         settings,
         features: plan.features || recorder.is_some(),
     };

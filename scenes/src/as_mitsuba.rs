@@ -1,7 +1,7 @@
 //! What limpid does otherwise than Mitsuba 3 on purpose, undone.
 //!
-//! What differs by choice has its switch here, so that a comparison sees mistakes and not decisions: clip planes, and
-//! checkerboards that are read as numbers.
+//! What differs by choice has its switch here, so that a comparison sees mistakes and not decisions: clip planes, the
+//! steps of pixel filters, and checkerboards that are read as numbers.
 
 use std::collections::HashMap;
 
@@ -9,12 +9,15 @@ use crate::{Scalar, Scene, TextureId, TextureKind};
 
 /// Where Mitsuba's cameras begin and end to see, in scene units, unless the file says otherwise.
 const CLIP: [f64; 2] = [1e-2, 1e4];
+/// Mitsuba looks pixel filters up in a table of so many values, without interpolation.
+const FILTER_STEPS: u32 = 31;
 
 /// Changes the scene so that it means here what it means in Mitsuba 3: leaves out what limpid does otherwise on purpose.
 pub fn as_mitsuba(scene: &mut Scene) {
     for camera in &mut scene.cameras {
         camera.near_clip.get_or_insert(CLIP[0]);
         camera.far_clip.get_or_insert(CLIP[1]);
+        camera.film.filter_steps = Some(FILTER_STEPS);
     }
     swap_checkerboards(scene);
 }

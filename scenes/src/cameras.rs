@@ -93,6 +93,9 @@ pub struct Film {
     pub crop: Option<Crop>,
     /// The pixel filter.
     pub filter: PixelFilter,
+    /// The filter's value is that at the inner end of one of so many steps of its radius, as in Mitsuba 3 (31); `None`:
+    /// the filter itself. A box has no steps.
+    pub filter_steps: Option<u32>,
     /// The share of what is there is asked for beside the colours.
     pub alpha: bool,
 }

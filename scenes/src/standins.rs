@@ -63,7 +63,14 @@ pub(crate) fn camera(
         lens: None,
         near_clip: None,
         far_clip: None,
-        film: Film { width, height, crop: None, filter: PixelFilter::Gaussian { stddev: 0.5 }, alpha: false },
+        film: Film {
+            width,
+            height,
+            crop: None,
+            filter: PixelFilter::Gaussian { stddev: 0.5 },
+            filter_steps: None,
+            alpha: false,
+        },
         sampler: Sampler { kind: "sobol".into(), sample_count: SAMPLES },
         place,
     }

@@ -143,6 +143,14 @@ fn check(in_time: impl Fn(&str) -> bool) {
             if agrees { "yes" } else { "**no**" },
         );
         println!("{line}");
+        if !agrees {
+            let findings = found.families.iter().flat_map(|family| &family.findings);
+            let mut clear: Vec<_> = findings.collect();
+            clear.sort_by(|a, b| a.p.total_cmp(&b.p));
+            for finding in clear.iter().take(3) {
+                println!("    {finding:?}");
+            }
+        }
         (count, blocks) = (count + 1, blocks + found.blocks);
         if !agrees {
             failed.push(line);

@@ -18,7 +18,14 @@ fn camera(fov_axis: FovAxis, offset: [f64; 2]) -> SceneCamera {
         lens: None,
         near_clip: None,
         far_clip: None,
-        film: Film { width: 100, height: 50, crop: None, filter: PixelFilter::Box, alpha: false },
+        film: Film {
+            width: 100,
+            height: 50,
+            crop: None,
+            filter: PixelFilter::Box,
+            filter_steps: None,
+            alpha: false,
+        },
         sampler: Sampler { kind: "independent".into(), sample_count: 1 },
         place: Place::default(),
     }

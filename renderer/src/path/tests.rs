@@ -71,7 +71,7 @@ fn batch_and_depth_first_driver_agree(scene: Scene) {
     let cx = Context {
         scene: &prepared,
         camera: Camera::new(&prepared.camera, settings.width, settings.height),
-        filter: PixelFilterSampler::new(prepared.camera.film.filter),
+        filter: PixelFilterSampler::of(&prepared.camera.film),
         settings: &settings,
         features: true,
     };

@@ -4,7 +4,7 @@
 //! the mean of weight · radiance is the filtered pixel. Filters are separable.
 
 use glam::Vec2;
-use limpid_scenes::PixelFilter;
+use limpid_scenes::{Film, PixelFilter};
 
 /// Draws places in a pixel filter.
 #[derive(Clone, Debug)]
@@ -32,27 +32,47 @@ struct Table {
 
 /// Bins of a table: a power of two, so that their borders are exact.
 const BINS: usize = 2048;
+/// The most steps of a stepped filter.
+const MOST_STEPS: u32 = 1 << 12;
 
 impl PixelFilterSampler {
+    /// The filter of a film.
+    pub fn of(film: &Film) -> Self {
+        match film.filter_steps.filter(|&steps| (1..=MOST_STEPS).contains(&steps)) {
+            Some(steps) => Self::stepped(film.filter, steps),
+            None => Self::new(film.filter),
+        }
+    }
+
     /// A filter with a parameter that makes no filter (a radius that is not positive, say) becomes a box.
     pub fn new(filter: PixelFilter) -> Self {
         let profile = match filter {
-            PixelFilter::Box => Profile::Box,
             PixelFilter::Tent { radius } if radius > 0.0 && radius.is_finite() => Profile::Tent { radius },
-            PixelFilter::Tent { .. } => Profile::Box,
-            PixelFilter::Gaussian { stddev } => {
-                let alpha = -0.5 / f64::from(stddev).powi(2);
-                let radius = 4.0 * f64::from(stddev);
-                table(radius, |x| (alpha * x * x).exp() - (alpha * radius * radius).exp())
-            }
-            PixelFilter::Mitchell { b, c } => table(2.0, |x| mitchell(x, b.into(), c.into())),
-            PixelFilter::CatmullRom => table(2.0, |x| mitchell(x, 0.0, 0.5)),
-            PixelFilter::Lanczos { lobes } => {
-                let lobes = f64::from(lobes);
-                table(lobes, |x| sinc(x) * sinc(x / lobes))
+            PixelFilter::Box | PixelFilter::Tent { .. } => Profile::Box,
+            _ => {
+                let (radius, f) = formula(filter);
+                let width = 2.0 * radius / BINS as f64;
+                // Gauss's rule with two points: exact for the cubic pieces of Mitchell's filter.
+                let (near, far) = (0.5 - 0.5 / 3f64.sqrt(), 0.5 + 0.5 / 3f64.sqrt());
+                let integral = |i: usize| {
+                    let at = |x: f64| f(-radius + (i as f64 + x) * width);
+                    0.5 * (at(near) + at(far))
+                };
+                table(radius, (0..BINS).map(integral).collect())
             }
         };
         Self { profile }
+    }
+
+    /// See [`Film::filter_steps`].
+    fn stepped(filter: PixelFilter, steps: u32) -> Self {
+        if filter == PixelFilter::Box {
+            return Self::new(filter);
+        }
+        let (radius, f) = formula(filter);
+        let inner_ends = (0..steps).map(|i| radius * f64::from(i) / f64::from(steps));
+        let half: Vec<f64> = inner_ends.map(f).collect();
+        Self { profile: table(radius, half.iter().rev().chain(&half).copied().collect()) }
     }
 
     /// An offset from the pixel's centre in pixels, and the sample's weight, whose mean is 1; for filters without
@@ -95,7 +115,7 @@ impl Splat {
             Profile::Box => (0.5, 1.0),
             Profile::Tent { radius } => (f64::from(*radius), 2.0 / (3.0 * f64::from(*radius))),
             Profile::Table(table) => {
-                let width = 2.0 * table.radius / BINS as f64;
+                let width = 2.0 * table.radius / table.sums.len() as f64;
                 let mut below = 0.0;
                 let shares = table.sums.iter().zip(&table.weights).map(|(sum, weight)| {
                     let share = (sum - below) * f64::from(*weight);
@@ -115,17 +135,30 @@ fn tent(u: f32) -> f32 {
     if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).sqrt() }
 }
 
-/// The filter `f` on [−radius, radius].
-fn table(radius: f64, f: impl Fn(f64) -> f64) -> Profile {
-    let width = 2.0 * radius / BINS as f64;
-    // Gauss's rule with two points: exact for the cubic pieces of Mitchell's filter.
-    let (near, far) = (0.5 - 0.5 / 3f64.sqrt(), 0.5 + 0.5 / 3f64.sqrt());
-    let integrals: Vec<f64> = (0..BINS)
-        .map(|i| {
-            let at = |x: f64| f(-radius + (i as f64 + x) * width);
-            0.5 * (at(near) + at(far))
-        })
-        .collect();
+/// Where a filter ends, in pixels, and its values, not normalised.
+fn formula(filter: PixelFilter) -> (f64, Box<dyn Fn(f64) -> f64>) {
+    match filter {
+        PixelFilter::Box => (0.5, Box::new(|_| 1.0)),
+        PixelFilter::Tent { radius } => {
+            let radius = f64::from(radius);
+            (radius, Box::new(move |x| (1.0 - x.abs() / radius).max(0.0)))
+        }
+        PixelFilter::Gaussian { stddev } => {
+            let alpha = -0.5 / f64::from(stddev).powi(2);
+            let radius = 4.0 * f64::from(stddev);
+            (radius, Box::new(move |x| (alpha * x * x).exp() - (alpha * radius * radius).exp()))
+        }
+        PixelFilter::Mitchell { b, c } => (2.0, Box::new(move |x| mitchell(x, b.into(), c.into()))),
+        PixelFilter::CatmullRom => (2.0, Box::new(|x| mitchell(x, 0.0, 0.5))),
+        PixelFilter::Lanczos { lobes } => {
+            let lobes = f64::from(lobes);
+            (lobes, Box::new(move |x| sinc(x) * sinc(x / lobes)))
+        }
+    }
+}
+
+/// A filter by its integrals over bins of equal width on [−radius, radius].
+fn table(radius: f64, integrals: Vec<f64>) -> Profile {
     let (signed, absolute) = integrals.iter().fold((0.0, 0.0), |(s, a), x| (s + x, a + x.abs()));
     let ratio = absolute / signed;
     // Not so for a radius of 0, NaN, infinity, and the like.
@@ -152,10 +185,11 @@ impl Table {
     fn sample(&self, u: f32) -> (f32, f32) {
         let u = f64::from(u);
         // The last sum is 1 and more than u, but for rounding.
-        let bin = self.sums.partition_point(|&sum| sum <= u).min(BINS - 1);
+        let bins = self.sums.len();
+        let bin = self.sums.partition_point(|&sum| sum <= u).min(bins - 1);
         let before = if bin == 0 { 0.0 } else { self.sums[bin - 1] };
         let within = ((u - before) / (self.sums[bin] - before)).clamp(0.0, 1.0);
-        let x = (2.0 * (bin as f64 + within) / BINS as f64 - 1.0) * self.radius;
+        let x = (2.0 * (bin as f64 + within) / bins as f64 - 1.0) * self.radius;
         (x as f32, self.weights[bin])
     }
 }

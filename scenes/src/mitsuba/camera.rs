@@ -25,8 +25,14 @@ const DIAGONAL_MM: f64 = 43.266_615_305_567_875;
 const DEFAULT_FAR_CLIP: f64 = 1e4;
 
 /// What Mitsuba renders where the file says nothing.
-const DEFAULT_FILM: Film =
-    Film { width: 768, height: 576, crop: None, filter: PixelFilter::Gaussian { stddev: 0.5 }, alpha: false };
+const DEFAULT_FILM: Film = Film {
+    width: 768,
+    height: 576,
+    crop: None,
+    filter: PixelFilter::Gaussian { stddev: 0.5 },
+    filter_steps: None,
+    alpha: false,
+};
 
 fn default_sampler() -> Sampler {
     Sampler { kind: "independent".into(), sample_count: 4 }
@@ -131,7 +137,7 @@ impl Reader<'_> {
             object.string("pixel_format")?.map_or(String::new(), |(word, _)| word.trim().to_lowercase());
         let alpha = matches!(format.as_str(), "rgba" | "xyza") || format.ends_with("alpha");
         object.finish(&mut self.warnings);
-        Ok(Film { width: width as u32, height: height as u32, crop, filter, alpha })
+        Ok(Film { width: width as u32, height: height as u32, crop, filter, filter_steps: None, alpha })
     }
 
     fn filter(&mut self, id: ElementId) -> Result<PixelFilter, SceneError> {

@@ -183,10 +183,14 @@ impl Reader<'_> {
                 TextureKind::Scaled { color, factor }
             }
             _ => {
-                let color0 =
-                    self.color(&object, "color0", Quantity::Reflectance, Color::Constant([0.4; 3]))?;
-                let color1 =
-                    self.color(&object, "color1", Quantity::Reflectance, Color::Constant([0.2; 3]))?;
+                // A float may be any number, and beyond 1 where no reflectance is meant: `diff_trans` goes to 2.
+                let quantity = |key| match object.find(key) {
+                    Some((_, parameter)) if parameter.tag == "float" => Quantity::Ratio,
+                    _ => Quantity::Reflectance,
+                };
+                let mut color =
+                    |key, default| self.color(&object, key, quantity(key), Color::Constant([default; 3]));
+                let (color0, color1) = (color("color0", 0.4)?, color("color1", 0.2)?);
                 TextureKind::Checkerboard { color0, color1 }
             }
         };

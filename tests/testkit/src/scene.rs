@@ -25,7 +25,7 @@ pub fn camera(origin: DVec3, target: DVec3, width: u32, height: u32) -> Camera {
         lens: None,
         near_clip: None,
         far_clip: None,
-        film: Film { width, height, crop: None, filter: PixelFilter::Box, alpha: false },
+        film: Film { width, height, crop: None, filter: PixelFilter::Box, filter_steps: None, alpha: false },
         sampler: Sampler { kind: "independent".into(), sample_count: 16 },
         place: Place::default(),
     }
