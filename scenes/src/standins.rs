@@ -16,8 +16,9 @@ pub(crate) const SIZE: [u32; 2] = [960, 720];
 const SAMPLES: u32 = 64;
 /// Full angle of view of the camera that stands in, along the height, in degrees.
 const FOV_DEG: f64 = 45.0;
-/// The way to that camera, seen from the model: to the right of its front, and above.
-const FROM: DVec3 = DVec3::new(1.0, 0.7, 1.0);
+/// The way to that camera, seen from the model: somewhat to the right of its front and above. Models face +z (glTF 2.0,
+/// section 3.4), and rooms that are models are open there.
+const FROM: DVec3 = DVec3::new(0.45, 0.3, 1.0);
 /// Room around the model.
 const MARGIN: f64 = 1.05;
 

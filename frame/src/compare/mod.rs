@@ -128,17 +128,19 @@ pub fn compare(a: &Halves, b: &Halves) -> Comparison {
     }
 
     let count = tested.len() + usize::from(weighted.is_some());
+    let rounding = a.rounding().max(b.rounding());
     let level = |tests: usize| sidak_level(sidak_level(FALSE_ALARMS, count), tests);
     let mut families: Vec<Family> = tested
         .iter()
         .map(|(parts, units)| {
             let level = level(3 * units.grid.len());
-            family(*parts, units.findings(level), level)
+            family(*parts, units.findings(level, rounding), level)
         })
         .collect();
     if let Some(weighted) = weighted {
         let level = level(3);
-        families.insert(1, family(Parts::Weighted, weighted.findings(level, [width, height]), level));
+        families
+            .insert(1, family(Parts::Weighted, weighted.findings(level, [width, height], rounding), level));
     }
 
     let least = families.iter().map(|family| family.p).fold(1.0, f64::min);

@@ -1,5 +1,6 @@
 //! Pictures from independent passes, and how well each pixel is known.
 
+use super::ROUNDING;
 use crate::{Frame, FrameError};
 
 /// Running moments of passes with the same number of samples each, a pixel and channel at a time.
@@ -62,6 +63,7 @@ impl Passes {
         Some(Estimate {
             size: self.size,
             spp: self.spp,
+            rounding: ROUNDING,
             var: scale(self.m2, 1.0 / (n * (n - 1.0))),
             third: scale(self.m3, 1.0 / (n * (n - 1.0) * (n - 2.0))),
             mean: self.mean,
@@ -76,6 +78,8 @@ pub struct Estimate {
     pub(super) spp: f64,
     /// Of the samples.
     pub(super) mean: [Vec<f64>; 3],
+    /// How far it may be off by rounding, as a fraction.
+    pub(super) rounding: f64,
     /// Variance of that mean.
     pub(super) var: [Vec<f64>; 3],
     /// Third cumulant of that mean, unbiased: its third central moment. Empty where it is not known.
@@ -99,7 +103,13 @@ impl Estimate {
         let known =
             |plane: &[f32]| plane.iter().map(|&v| if v < 0.0 { f64::NAN } else { f64::from(v) }).collect();
         let (mean, var) = (mean.rgb()?.map(wide), variance.rgb()?.map(known));
-        Ok(Self { size, spp: 1.0, mean, var, third: std::array::from_fn(|_| Vec::new()) })
+        Ok(Self { size, spp: 1.0, rounding: ROUNDING, mean, var, third: std::array::from_fn(|_| Vec::new()) })
+    }
+
+    /// Says how far the picture may be off by rounding, as a fraction of its brightness, where that is more than
+    /// [`ROUNDING`]. The sum of n like samples in 32 bits is off by up to n / 2²⁵.
+    pub fn set_rounding(&mut self, rounding: f64) {
+        self.rounding = rounding.max(ROUNDING);
     }
 
     /// Scales every variance: for pixels that share samples, so that sums over them vary by more than independent
@@ -132,6 +142,7 @@ impl Estimate {
             let (wa, wb) = (ours.powi(power), theirs.powi(power));
             a.iter_mut().flatten().zip(b.iter().flatten()).for_each(|(a, b)| *a = wa * *a + wb * b);
         };
+        self.rounding = self.rounding.max(other.rounding);
         merge(&mut self.mean, &other.mean, 1);
         merge(&mut self.var, &other.var, 2);
         merge(&mut self.third, &other.third, 3);
@@ -166,6 +177,14 @@ impl Halves {
         match self {
             Self::Two(halves) => halves[0].size,
             Self::One(whole) => whole.size,
+        }
+    }
+
+    /// How far the picture may be off by rounding, as a fraction.
+    pub(super) fn rounding(&self) -> f64 {
+        match self {
+            Self::Two(halves) => halves[0].rounding.max(halves[1].rounding),
+            Self::One(whole) => whole.rounding,
         }
     }
 

@@ -6,7 +6,7 @@ use crate::stats::{normal_quantile, skew_corrected_p, student_t_quantile};
 /// The chance with which a detectable bias is found.
 pub const POWER: f64 = 0.9;
 /// Relative differences up to here are taken for rounding: renderers add up in 32 bits, and their tables of spectra,
-/// metals and textures differ in the fifth digit.
+/// metals and textures differ in the fifth digit. A picture may be rounded more: [`Estimate::set_rounding`](super::Estimate::set_rounding).
 pub const ROUNDING: f64 = 1e-4;
 
 /// A mean with its noise.
@@ -60,10 +60,17 @@ impl Finding {
 }
 
 /// Welch's test of two means with corrections for skewness and rounding; an alarm is a p below `level`.
-pub(super) fn test(a: &Mean, b: &Mean, area: Area, channel: usize, quantiles: &mut Quantiles) -> Finding {
+pub(super) fn test(
+    a: &Mean,
+    b: &Mean,
+    area: Area,
+    channel: usize,
+    rounding: f64,
+    quantiles: &mut Quantiles,
+) -> Finding {
     let var = a.var + b.var;
     let difference = a.mean - b.mean;
-    let beyond = (difference.abs() - ROUNDING * a.mean.abs().max(b.mean.abs())).max(0.0).copysign(difference);
+    let beyond = (difference.abs() - rounding * a.mean.abs().max(b.mean.abs())).max(0.0).copysign(difference);
     let mut finding = Finding {
         area,
         channel,
@@ -97,7 +104,7 @@ pub(super) fn test(a: &Mean, b: &Mean, area: Area, channel: usize, quantiles: &m
     }
     let light = finding.brightness();
     let reach = (quantiles.two_sided(finding.dof) + normal_quantile(POWER)) * error;
-    finding.detectable = if light > 0.0 { ROUNDING + reach / light } else { f64::INFINITY };
+    finding.detectable = if light > 0.0 { rounding + reach / light } else { f64::INFINITY };
     finding
 }
 

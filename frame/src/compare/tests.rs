@@ -98,7 +98,7 @@ fn fireflies_of_one_picture_raise_no_false_alarms() {
         let b = rendered(smooth, 16, &mut random);
         let units = Units::of(Grid::of_blocks([SIDE; 2], 8), [View::All(&a), View::All(&b)], None);
         let level = sidak_level(FALSE_ALARMS, 3 * units.grid.len());
-        units.findings(level).iter().any(|finding| finding.p < level)
+        units.findings(level, ROUNDING).iter().any(|finding| finding.p < level)
     });
     assert_eq!(naive.count(), 20);
 }
@@ -203,6 +203,7 @@ fn pictures_without_noise_are_told_apart_beyond_rounding() {
     let flat = |value: f64| {
         let half = || Estimate {
             size: [9, 5],
+            rounding: ROUNDING,
             spp: 8.0,
             mean: std::array::from_fn(|_| vec![value; 45]),
             var: std::array::from_fn(|_| vec![0.0; 45]),
@@ -257,4 +258,22 @@ fn grids_cover_every_pixel_once() {
             assert_eq!(grid.of_pixel(area.y * size[0] + area.x), unit);
         }
     }
+}
+
+#[test]
+fn a_difference_within_the_rounding_that_is_stated_is_none() {
+    let picture = |grey: f32| {
+        let mut frame = Frame::new(SIDE, SIDE);
+        ["R", "G", "B"].into_iter().for_each(|name| frame.insert(name, vec![grey; SIDE * SIDE]));
+        frame
+    };
+    let variance = picture(1e-12);
+    let of = |grey: f32, rounding: f64| {
+        let mut estimate = Estimate::of_frames(&picture(grey), &variance).expect("fits");
+        estimate.set_rounding(rounding);
+        Halves::One(Box::new(estimate))
+    };
+    let p = |rounding: f64| compare(&of(1.0, 0.0), &of(1.0005, rounding)).p;
+    assert!(p(1e-3) > 0.5 && p(4e-4) < FALSE_ALARMS, "{} {}", p(1e-3), p(4e-4));
+    assert!(compare(&of(1.0, 0.0), &of(1.0005, 1e-3)).detectable_bias >= 1e-3);
 }

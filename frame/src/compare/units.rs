@@ -122,12 +122,12 @@ impl Units {
     }
 
     /// The test of every unit and channel at a level.
-    pub fn findings(&self, level: f64) -> Vec<Finding> {
+    pub fn findings(&self, level: f64, rounding: f64) -> Vec<Finding> {
         let mut quantiles = Quantiles::new(level);
         let mut findings = Vec::with_capacity(3 * self.means.len());
         for (unit, means) in self.means.iter().enumerate() {
             for (channel, [a, b]) in means.iter().enumerate() {
-                findings.push(test(a, b, self.grid.area(unit), channel, &mut quantiles));
+                findings.push(test(a, b, self.grid.area(unit), channel, rounding, &mut quantiles));
             }
         }
         findings

@@ -56,11 +56,11 @@ pub(super) fn test(a: &Halves, b: &Halves, sides: [usize; 2]) -> Option<Weighted
 }
 
 impl Weighted {
-    pub fn findings(&self, level: f64, [width, height]: [usize; 2]) -> Vec<Finding> {
+    pub fn findings(&self, level: f64, [width, height]: [usize; 2], rounding: f64) -> Vec<Finding> {
         let mut quantiles = Quantiles::new(level);
         let area = Area { x: 0, y: 0, width, height };
         let channels = self.means.iter().enumerate();
-        channels.map(|(channel, [a, b])| test::test(a, b, area, channel, &mut quantiles)).collect()
+        channels.map(|(channel, [a, b])| test::test(a, b, area, channel, rounding, &mut quantiles)).collect()
     }
 }
 
