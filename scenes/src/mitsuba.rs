@@ -17,6 +17,7 @@ mod nesting;
 mod object;
 mod parameters;
 mod principled;
+mod refused;
 mod shapes;
 mod survey;
 mod text;
@@ -145,6 +146,7 @@ impl<'d> Reader<'d> {
             }
         }
         self.check_attributes();
+        self.note_what_mitsuba_refuses();
         if self.scene.cameras.is_empty() {
             self.default_camera();
         }
