@@ -3,9 +3,8 @@
 
 use std::fs;
 
-use glam::DVec3;
 use limpid_frame::{Frame, Layer, Statistic, write_png};
-use limpid_scenes::{LightKind, LoadOptions, Scene, load, load_str};
+use limpid_scenes::{LoadOptions, Scene, load, load_str};
 use limpid_tests::{rendered, within};
 
 fn read(elements: &str) -> Scene {
@@ -180,26 +179,26 @@ fn hidden_emitters_leave_neither_light_nor_alpha() {
 
 #[test]
 fn the_sky_stands_on_y_in_0_x_and_on_z_in_3() {
-    let sun = |version: &str, direction: &str| {
+    // what is seen a quarter of a degree around a direction, by the sun of this one; none where it is below the horizon
+    let seen = |version: &str, sun: [f64; 3], towards: [f64; 3]| {
+        let (name, [x, y, z]) = (if version == "3.0.0" { "sun_direction" } else { "sunDirection" }, sun);
+        let [a, b, c] = towards;
         let text = format!(
-            r#"<scene version="{version}"><emitter type="sunsky"><vector name="{}" {direction}/></emitter></scene>"#,
-            if version == "3.0.0" { "sun_direction" } else { "sunDirection" }
+            r#"<scene version="{version}"><emitter type="sunsky"><vector name="{name}" x="{x}" y="{y}" z="{z}"/></emitter>
+            <sensor type="perspective"><float name="fov" value="0.25"/><transform name="{}"><lookat origin="0 0 0" target="{a} {b} {c}" up="1 0 0"/></transform>
+            <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film></sensor></scene>"#,
+            if version == "3.0.0" { "to_world" } else { "toWorld" }
         );
         let scene = load_str(&text, "".as_ref(), &LoadOptions::default()).expect("loads");
-        scene.lights.iter().find_map(|light| match light.kind {
-            LightKind::Sun { direction, .. } => Some(direction),
-            _ => None,
-        })
+        (!scene.lights.is_empty()).then(|| sum(&picture(&scene), 0.0..1.0, 0.0..1.0) / 16.0)
     };
-    let (over_y, over_z) = (r#"x="0.3" y="0.9" z="-0.1""#, r#"x="0.3" y="-0.1" z="0.9""#);
-    let is_at = |sun: Option<DVec3>, x, y, z| {
-        sun.is_some_and(|sun| sun.abs_diff_eq(DVec3::new(x, y, z).normalize(), 1e-9))
-    };
-    assert!(is_at(sun("0.6.0", over_y), 0.3, 0.9, -0.1));
-    assert!(is_at(sun("3.0.0", over_z), 0.3, -0.1, 0.9));
-    // below the horizon of the other
-    assert_eq!(sun("0.6.0", over_z), None);
-    assert_eq!(sun("3.0.0", over_y), None);
+    let (over_y, over_z, beside) = ([0.3, 0.9, -0.1], [0.3, -0.1, 0.9], [0.9, 0.3, 0.3]);
+    for (version, over, below) in [("0.6.0", over_y, over_z), ("3.0.0", over_z, over_y)] {
+        let (sun, sky) = (seen(version, over, over), seen(version, over, beside));
+        let (sun, sky) = (sun.expect("is up"), sky.expect("is up"));
+        assert!(sky > 0.0 && sun > 1000.0 * sky, "{version}: the sun {sun}, the sky {sky}");
+        assert_eq!(seen(version, below, below), None, "{version}");
+    }
 }
 
 #[test]

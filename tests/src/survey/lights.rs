@@ -88,7 +88,7 @@ pub const LIGHTS: &[Plugin] = &[
         FAINT,
         "emitter",
         "spot",
-        Means::Shows("intensity: [1.0, 1.0, 1.0], cutoff_deg: 20.0, beam_deg: 15.0, texture: Constant([1.0, 1.0, 1.0])"),
+        Means::Shows("intensity: [1.0, 1.0, 1.0], cutoff_deg: 20.0, beam_deg: 15.0"),
         &[
             sets(r#"<rgb name="intensity" value="20 10 5"/>"#, "intensity: [20.0, 10.0, 5.0]"),
             sets(r#"<float name="cutoff_angle" value="40"/>"#, "cutoff_deg: 40.0, beam_deg: 30.0"),
