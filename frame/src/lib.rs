@@ -75,4 +75,4 @@ pub use layer::{Layer, LayerRequest, Statistic};
 pub use metrics::{Metrics, metrics};
 pub use png::{display_transform, write_beauty_png, write_png};
 pub use records::{RecordTile, SampleRecord};
-pub use whole::{without_name, write_whole};
+pub use whole::{discard_unfinished, without_name, write_whole};

@@ -3,6 +3,7 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::FrameError;
 
@@ -33,10 +34,39 @@ pub fn write_whole(
     }
 
     let folder = target.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut temporary = builder().tempfile_in(folder).map_err(|e| path_fault(without_name(e)))?;
-    fill(temporary.as_file_mut(), write).map_err(|source| write_failed(path, source))?;
+    let mut temporary = {
+        let mut unfinished = unfinished();
+        let temporary = builder().tempfile_in(folder).map_err(|e| path_fault(without_name(e)))?;
+        unfinished.push(temporary.path().to_owned());
+        temporary
+    };
+    let filled = fill(temporary.as_file_mut(), write);
+    let mut unfinished = unfinished();
+    unfinished.retain(|other| other != temporary.path());
+    filled.map_err(|source| write_failed(path, source))?;
     temporary.persist(&target).map_err(|e| path_fault(e.error))?;
     Ok(())
+}
+
+/// Temporary files that are being filled.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Deletes what [`write_whole`] has begun and not finished, for a program that is about to end. Until what it gives back is
+/// dropped no file is begun or finished.
+pub fn discard_unfinished() -> impl Sized {
+    let mut unfinished = unfinished();
+    discard(&mut unfinished);
+    unfinished
+}
+
+fn discard(temporaries: &mut Vec<PathBuf>) {
+    for temporary in temporaries.drain(..) {
+        let _ = fs::remove_file(temporary); // gone already, or it stays: nothing more can be done
+    }
 }
 
 /// Opens a regular file for reading and gives its length. Anything else is refused before it is opened,
@@ -169,6 +199,27 @@ mod tests {
         assert!(error.to_string().contains("a.bin"), "{error}");
         assert_eq!(fs::read(&path).expect("reads"), b"old");
         assert_eq!(names_in(folder.path()), ["a.bin"]);
+    }
+
+    #[test]
+    fn what_is_unfinished_when_the_program_ends_is_deleted_and_what_stood_there_kept() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("a.bin");
+        write_whole(&path, |f| f.write_all(b"old")).expect("writes");
+        let result = write_whole(&path, |f| {
+            f.write_all(b"new")?;
+            f.flush()?;
+            assert_eq!(names_in(folder.path()).len(), 2);
+            // Other tests write at the same time: theirs are left alone.
+            let mut all = unfinished();
+            let mine = all.iter().position(|p| p.parent() == Some(folder.path())).expect("is listed");
+            discard(&mut vec![all.swap_remove(mine)]);
+            drop(all);
+            assert_eq!(names_in(folder.path()), ["a.bin"]);
+            Ok(())
+        });
+        assert!(result.is_err());
+        assert_eq!(fs::read(&path).expect("reads"), b"old");
     }
 
     #[test]

@@ -17,6 +17,7 @@ mod nesting;
 mod object;
 mod parameters;
 mod principled;
+mod refused;
 mod shapes;
 mod survey;
 mod text;
@@ -78,6 +79,8 @@ struct Reader<'d> {
     /// Files of several meshes, each of which is read from the same bytes.
     mesh_files: HashMap<PathBuf, Arc<[u8]>>,
     groups: HashMap<ElementId, GroupId>,
+    /// Attributes of meshes that some texture looks up.
+    looked_up: HashSet<&'d str>,
     images: HashMap<(PathBuf, bool), Arc<Image>>,
     spectra: HashMap<(PathBuf, Quantity), Rgb>,
     /// Objects that are being read: one that comes up again contains itself.
@@ -103,6 +106,7 @@ impl<'d> Reader<'d> {
             meshes: HashMap::new(),
             mesh_files: HashMap::new(),
             groups: HashMap::new(),
+            looked_up: looked_up(document),
             images: HashMap::new(),
             spectra: HashMap::new(),
             open: HashSet::new(),
@@ -145,6 +149,7 @@ impl<'d> Reader<'d> {
             }
         }
         self.check_attributes();
+        self.note_what_mitsuba_refuses();
         if self.scene.cameras.is_empty() {
             self.default_camera();
         }
@@ -276,6 +281,13 @@ impl<'d> Reader<'d> {
             SceneError::at(place, label, problem, "name a file that can be read")
         })
     }
+}
+
+/// The names in all textures of attributes.
+fn looked_up(document: &Document) -> HashSet<&str> {
+    let textures = document.elements.iter().filter(|e| e.attribute("type") == Some("mesh_attribute"));
+    let named = textures.flat_map(|texture| &texture.children).map(|&id| document.element(id));
+    named.filter(|child| child.key == "name").filter_map(|child| child.attribute("value")).collect()
 }
 
 #[cfg(test)]

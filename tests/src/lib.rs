@@ -1,6 +1,7 @@
 //! What the tests that cross crates share: small scenes, rendered.
 
 pub mod start;
+pub mod survey;
 pub mod table;
 
 use glam::DVec3;

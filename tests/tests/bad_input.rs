@@ -63,6 +63,22 @@ fn an_unused_parameter_is_a_warning_and_under_strict_an_error() {
 }
 
 #[test]
+fn an_export_whose_folder_cannot_be_is_the_calls_fault_and_leaves_nothing() {
+    let folder = folder();
+    fs::write(folder.path().join("out_files"), "a file").expect("writes");
+    fs::create_dir(folder.path().join("a_folder.xml")).expect("makes a folder");
+    refused(folder.path(), "export ball.xml -o out.xml", 2, &["error: out_files: "]);
+    assert_eq!(fs::read_to_string(folder.path().join("out_files")).expect("reads"), "a file");
+    refused(folder.path(), "export ball.xml -o ball.xml/out.xml", 2, &["ball.xml/out.xml: "]);
+    refused(folder.path(), "export ball.xml -o a_folder.xml", 2, &["a_folder.xml: "]);
+    refused(folder.path(), "export ball.xml -o nowhere/out.xml", 2, &["nowhere/out.xml: "]);
+    // where the first file has found its place
+    fs::remove_file(folder.path().join("out_files")).expect("removes");
+    done(folder.path(), "export ball.xml -o out.xml");
+    assert!(folder.path().join("out.xml").is_file());
+}
+
+#[test]
 fn a_wrong_call_names_the_option_and_the_cure() {
     let folder = folder();
     for (options, words) in [

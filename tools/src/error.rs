@@ -35,14 +35,6 @@ pub enum CliError {
         /// What is wrong, and the cure.
         problem: String,
     },
-    /// A file of an exported scene that cannot be written.
-    #[error("{}: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
     /// A frame that the method cannot take.
     #[error("{}: {source}", path.display())]
     Denoise {
@@ -95,7 +87,7 @@ impl CliError {
                 Fault::Input => 2,
                 Fault::Machine => 3,
             },
-            Self::Threads { .. } | Self::Stdout(_) | Self::Write { .. } | Self::Mitsuba { .. } => 3,
+            Self::Threads { .. } | Self::Stdout(_) | Self::Mitsuba { .. } => 3,
             Self::No(_) => 1,
             Self::Interrupted { .. } => 130,
         }

@@ -15,6 +15,7 @@ use crate::{output, scene, words};
 /// Reads a scene and writes it.
 pub fn run(options: &Export, common: &Common) -> Result<(), CliError> {
     output::check(&options.output)?;
+    output::check_folder(&folder_of(&options.output))?;
     let scene = scene::load(&options.scene, &options.reading, common)?;
     let (files, notes) = write(&scene, &options.output)?;
     for note in &notes {
@@ -37,15 +38,20 @@ pub fn write(scene: &Scene, path: &Path) -> Result<(Vec<String>, Vec<String>), C
     let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let beside = path.parent().unwrap_or(Path::new(""));
     let mut files = Vec::new();
+    let mut failure = None; // what `export_mitsuba` hands on says less
     let mut write = |name: &str, bytes: &[u8]| {
-        fs::create_dir_all(&folder)?;
-        write_whole(&beside.join(name), |file| file.write_all(bytes)).map_err(io::Error::other)?;
+        let made = fs::create_dir_all(&folder).map_err(|source| output::output_error(&folder, source));
+        let written = made.and_then(|()| {
+            write_whole(&beside.join(name), |file| file.write_all(bytes)).map_err(CliError::from)
+        });
         files.push(name.to_owned());
-        Ok(())
+        written.map_err(|error| io::Error::other(failure.insert(error).to_string()))
     };
-    let Exported { xml, notes } = export_mitsuba(scene, &name, &mut write).map_err(|error| match error {
-        ExportError::Scene(error) => CliError::Scene(error),
-        ExportError::Write { name, source } => CliError::Write { path: beside.join(name), source },
+    let exported = export_mitsuba(scene, &name, &mut write);
+    let Exported { xml, notes } = exported.map_err(|error| match (error, failure) {
+        (ExportError::Scene(error), _) => CliError::Scene(error),
+        (ExportError::Write { .. }, Some(failure)) => failure,
+        (ExportError::Write { name, source }, None) => output::output_error(&beside.join(name), source),
     })?;
     write_whole(path, |file| file.write_all(xml.as_bytes()))?;
     Ok((files, notes))

@@ -10,8 +10,7 @@ use limpid_renderer::Progress;
 /// The render that the first Ctrl-C stops.
 static RENDER: Mutex<Option<Arc<Progress>>> = Mutex::new(None);
 
-/// Takes over Ctrl-C. Files appear under their names whole or not at all, also where the program ends at once; a temporary
-/// file beside them may then stay.
+/// Takes over Ctrl-C. Files appear under their names whole or not at all, also where the program ends at once.
 pub fn install(quiet: bool) {
     // Where the system gives no handler its own stays: it ends the program, too.
     let _ = ctrlc::set_handler(move || {
@@ -27,7 +26,10 @@ pub fn install(quiet: bool) {
                     );
                 }
             }
-            _ => process::exit(130),
+            _ => {
+                let _nothing_begins = limpid_frame::discard_unfinished();
+                process::exit(130)
+            }
         }
     });
 }

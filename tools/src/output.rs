@@ -31,14 +31,8 @@ impl Pictures {
     /// As [`write`](Self::write) would end, and where both are the same file.
     pub fn check(&self) -> Result<(), CliError> {
         let paths = self.paths();
-        for (i, path) in paths.iter().enumerate() {
-            if paths[..i].contains(path) {
-                let problem = "is to be two files; name another".into();
-                return Err(CliError::File { path: path.into(), problem });
-            }
-            check(path)?;
-        }
-        Ok(())
+        paths.iter().try_for_each(|path| check(path))?;
+        check_distinct(&paths)
     }
 
     /// Their names.
@@ -77,21 +71,59 @@ pub fn named(stem: &Path, extension: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
+/// Whether all these are different files, however they are spelt.
+///
+/// # Errors
+///
+/// Where two are the same.
+pub fn check_distinct(paths: &[&Path]) -> Result<(), CliError> {
+    let mut seen: Vec<PathBuf> = Vec::new();
+    for path in paths {
+        let file = identity(path);
+        if seen.contains(&file) {
+            let problem = "is to be two files; name another".into();
+            return Err(CliError::File { path: (*path).into(), problem });
+        }
+        seen.push(file);
+    }
+    Ok(())
+}
+
+/// A file's name without `.`, `..` and links, as far as it exists.
+fn identity(path: &Path) -> PathBuf {
+    if let Ok(whole) = fs::canonicalize(path) {
+        return whole;
+    }
+    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.into());
+    path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name))
+}
+
 /// Whether `folder` is an empty place for a file a tile, or can be made.
 ///
 /// # Errors
 ///
 /// Where it is a file or below one, or holds records of another render.
 pub fn check_records_folder(folder: &Path) -> Result<(), CliError> {
-    let there = folder.ancestors().find(|f| f.as_os_str().is_empty() || f.exists());
-    if there.is_some_and(|f| f.is_file()) {
-        return Err(output_error(folder, io::Error::from(ErrorKind::NotADirectory)));
-    }
+    check_folder(folder)?;
     let Ok(mut entries) = fs::read_dir(folder) else { return Ok(()) };
     let is_record = |e: fs::DirEntry| e.path().extension().is_some_and(|x| x == "safetensors");
     if entries.any(|e| e.is_ok_and(is_record)) {
         let problem = "holds records already, which would mix with the new ones; name an empty folder";
         return Err(CliError::File { path: folder.into(), problem: problem.into() });
+    }
+    Ok(())
+}
+
+/// Whether `folder` is one, or can be made, before the work that it is for.
+///
+/// # Errors
+///
+/// Where it is a file or below one.
+pub fn check_folder(folder: &Path) -> Result<(), CliError> {
+    let there = folder.ancestors().find(|f| f.as_os_str().is_empty() || f.exists());
+    if there.is_some_and(|f| !f.as_os_str().is_empty() && !f.is_dir()) {
+        return Err(output_error(folder, io::Error::from(ErrorKind::NotADirectory)));
     }
     Ok(())
 }
@@ -161,8 +193,23 @@ mod tests {
         }
         let good = folder.path().join("p.exr");
         pictures(&good, Some(&file)).check().expect("can be made");
-        assert_eq!(pictures(&good, Some(&good)).check().expect_err("is twice the same").exit_code(), 2);
+        let (dotted, round) = (folder.path().join("./p.exr"), folder.path().join("no/../p.exr"));
+        for same in [&good, &dotted] {
+            assert_eq!(pictures(&good, Some(same)).check().expect_err("is twice the same").exit_code(), 2);
+        }
+        assert_eq!(pictures(&good, Some(&round)).check().expect_err("has no folder").exit_code(), 2);
         assert_eq!(fs::read_dir(folder.path()).expect("reads").count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn one_file_under_two_names_is_noticed() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (real, link) = (folder.path().join("p.exr"), folder.path().join("p.png"));
+        fs::write(&real, "").expect("writes");
+        std::os::unix::fs::symlink(&real, &link).expect("links");
+        assert_eq!(pictures(&real, Some(&link)).check().expect_err("is twice the same").exit_code(), 2);
+        pictures(&real, Some(&folder.path().join("q.png"))).check().expect("are two");
     }
 
     #[test]

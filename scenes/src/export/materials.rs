@@ -22,14 +22,13 @@ impl Writer<'_> {
             return Ok(());
         }
         let material = &self.scene.materials[id.0 as usize];
-        refuse_old(material)?;
         let kind = &material.kind;
         for inner in kind.inner() {
             self.material(inner, written)?;
         }
         let name = material_id(id);
         self.xml.open("bsdf", &[("type", plugin(kind)), ("id", &name)]);
-        self.parameters(kind)?;
+        self.parameters(material)?;
         self.xml.close("bsdf");
         Ok(())
     }
@@ -72,35 +71,32 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn parameters(&mut self, kind: &MaterialKind) -> Result<(), ExportError> {
-        match kind {
+    fn parameters(&mut self, material: &Material) -> Result<(), ExportError> {
+        match &material.kind {
             MaterialKind::Diffuse { reflectance } => self.color("reflectance", *reflectance),
             MaterialKind::Conductor { ior, specular_reflectance } => {
                 self.conductor(ior)?;
                 self.color("specular_reflectance", *specular_reflectance)
             }
             MaterialKind::RoughConductor { distribution, alpha_u, alpha_v, ior, specular_reflectance } => {
-                self.distribution(*distribution);
-                self.scalar("alpha_u", *alpha_u)?;
-                self.scalar("alpha_v", *alpha_v)?;
+                self.facets(*distribution, *alpha_u, *alpha_v)?;
                 self.conductor(ior)?;
                 self.color("specular_reflectance", *specular_reflectance)
             }
-            MaterialKind::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance } => {
-                self.iors(*int_ior, *ext_ior);
-                self.color("specular_reflectance", *specular_reflectance)?;
-                self.color("specular_transmittance", *specular_transmittance)
-            }
+            MaterialKind::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance }
+            | MaterialKind::ThinDielectric {
+                int_ior,
+                ext_ior,
+                specular_reflectance,
+                specular_transmittance,
+            } => self.glass([*int_ior, *ext_ior], *specular_reflectance, *specular_transmittance),
             MaterialKind::Plastic {
                 int_ior,
                 ext_ior,
                 diffuse_reflectance,
                 specular_reflectance,
                 nonlinear,
-            } => {
-                self.iors(*int_ior, *ext_ior);
-                self.coated(*diffuse_reflectance, *specular_reflectance, *nonlinear)
-            }
+            } => self.coated([*int_ior, *ext_ior], *diffuse_reflectance, *specular_reflectance, *nonlinear),
             MaterialKind::RoughPlastic {
                 distribution,
                 alpha,
@@ -112,8 +108,7 @@ impl Writer<'_> {
             } => {
                 self.distribution(*distribution);
                 self.xml.float("alpha", *alpha);
-                self.iors(*int_ior, *ext_ior);
-                self.coated(*diffuse_reflectance, *specular_reflectance, *nonlinear)
+                self.coated([*int_ior, *ext_ior], *diffuse_reflectance, *specular_reflectance, *nonlinear)
             }
             MaterialKind::RoughDielectric {
                 distribution,
@@ -125,26 +120,13 @@ impl Writer<'_> {
                 specular_transmittance,
             } => {
                 if int_ior != ext_ior {
-                    self.distribution(*distribution);
-                    self.scalar("alpha_u", *alpha_u)?;
-                    self.scalar("alpha_v", *alpha_v)?;
+                    self.facets(*distribution, *alpha_u, *alpha_v)?;
                 }
-                self.iors(*int_ior, *ext_ior);
-                self.color("specular_reflectance", *specular_reflectance)?;
-                self.color("specular_transmittance", *specular_transmittance)
+                self.glass([*int_ior, *ext_ior], *specular_reflectance, *specular_transmittance)
             }
-            MaterialKind::ThinDielectric {
-                int_ior,
-                ext_ior,
-                specular_reflectance,
-                specular_transmittance,
-            } => {
-                self.iors(*int_ior, *ext_ior);
-                self.color("specular_reflectance", *specular_reflectance)?;
-                self.color("specular_transmittance", *specular_transmittance)
-            }
-            MaterialKind::RoughDiffuse { .. } | MaterialKind::Phong { .. } | MaterialKind::Ward { .. } => {
-                unreachable!("`refuse_old` has refused it")
+            MaterialKind::RoughDiffuse { .. } => Err(no_counterpart(material, "make it diffuse")),
+            MaterialKind::Phong { .. } | MaterialKind::Ward { .. } => {
+                Err(no_counterpart(material, "make it roughplastic"))
             }
             MaterialKind::Principled(p) => self.principled(p),
             MaterialKind::PrincipledThin(p) => self.principled_thin(p),
@@ -194,9 +176,27 @@ impl Writer<'_> {
         self.xml.value("string", "distribution", word);
     }
 
-    fn iors(&mut self, int_ior: f32, ext_ior: f32) {
+    fn facets(
+        &mut self,
+        distribution: Distribution,
+        alpha_u: Scalar,
+        alpha_v: Scalar,
+    ) -> Result<(), ExportError> {
+        self.distribution(distribution);
+        self.scalar("alpha_u", alpha_u)?;
+        self.scalar("alpha_v", alpha_v)
+    }
+
+    fn iors(&mut self, [int_ior, ext_ior]: [f32; 2]) {
         self.xml.float("int_ior", int_ior);
         self.xml.float("ext_ior", ext_ior);
+    }
+
+    /// `iors`: inside and outside.
+    fn glass(&mut self, iors: [f32; 2], reflected: Color, transmitted: Color) -> Result<(), ExportError> {
+        self.iors(iors);
+        self.color("specular_reflectance", reflected)?;
+        self.color("specular_transmittance", transmitted)
     }
 
     fn conductor(&mut self, ior: &Option<ConductorIor>) -> Result<(), ExportError> {
@@ -212,7 +212,14 @@ impl Writer<'_> {
         }
     }
 
-    fn coated(&mut self, diffuse: Color, specular: Color, nonlinear: bool) -> Result<(), ExportError> {
+    fn coated(
+        &mut self,
+        iors: [f32; 2],
+        diffuse: Color,
+        specular: Color,
+        nonlinear: bool,
+    ) -> Result<(), ExportError> {
+        self.iors(iors);
         self.color("diffuse_reflectance", diffuse)?;
         self.color("specular_reflectance", specular)?;
         self.xml.value("boolean", "nonlinear", &nonlinear.to_string());
@@ -224,15 +231,10 @@ fn material_id(MaterialId(id): MaterialId) -> String {
     format!("material_{id}")
 }
 
-/// Models of Mitsuba 0.x have no counterpart.
-fn refuse_old(material: &Material) -> Result<(), SceneError> {
-    let help = match material.kind {
-        MaterialKind::RoughDiffuse { .. } => "make it diffuse",
-        MaterialKind::Phong { .. } | MaterialKind::Ward { .. } => "make it roughplastic",
-        _ => return Ok(()),
-    };
+/// A model that only Mitsuba 0.x has.
+fn no_counterpart(material: &Material, help: &str) -> ExportError {
     let (element, kind) = (format!("bsdf \"{}\"", material.name), plugin(&material.kind));
-    Err(SceneError::at(&material.place, &element, format!("Mitsuba 3 has no {kind}"), help))
+    SceneError::at(&material.place, &element, format!("Mitsuba 3 has no {kind}"), help).into()
 }
 
 fn plugin(kind: &MaterialKind) -> &'static str {

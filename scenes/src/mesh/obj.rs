@@ -18,6 +18,8 @@ pub(crate) use parts::{ObjPart, read_parts};
 
 /// "No texture coordinate" or "no normal" in a corner.
 const ABSENT: u32 = u32::MAX;
+/// Mitsuba reads none either.
+const NO_COLORS: &str = "the colours of vertices are not read; save the mesh as PLY to keep them";
 /// An index that the file cannot hold.
 const BEYOND: u32 = u32::MAX - 1;
 
@@ -46,6 +48,8 @@ struct Statements {
     /// The smoothing group that is on; 0 for none.
     smoothing: u32,
     notes: Vec<Note>,
+    /// The line of the first vertex with a colour.
+    colored: Option<u32>,
 }
 
 /// A face: its line, its smoothing group and where its corners end.
@@ -90,10 +94,16 @@ impl Statements {
     }
 
     /// Takes in one line; statements that are not about triangles are passed over.
-    fn statement(&mut self, line: &[u8], number: u32) -> Result<(), Bad> {
+    fn statement(&mut self, line: &[u8], line_number: u32) -> Result<(), Bad> {
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         match words.next() {
-            Some(b"v") => self.positions.push(numbers(words, 3)?),
+            Some(b"v") => {
+                // x y z, and perhaps w, or r g b
+                if words.clone().nth(5).is_some_and(|sixth| number(sixth).is_ok()) {
+                    self.colored.get_or_insert(line_number);
+                }
+                self.positions.push(numbers(words, 3)?);
+            }
             Some(b"vt") => {
                 let [u, v] = numbers(words, 1)?;
                 self.uvs.push([u as f32, v as f32]);
@@ -109,13 +119,13 @@ impl Statements {
                 if corners < 3 {
                     self.corners.truncate(start);
                     let message = format!("face with {corners} corners dropped");
-                    self.notes.push(Note { line: number, message });
+                    self.notes.push(Note { line: line_number, message });
                 } else {
                     let smoothing = self.smoothing;
-                    self.faces.push(Face { line: number, smoothing, end: self.corners.len() });
+                    self.faces.push(Face { line: line_number, smoothing, end: self.corners.len() });
                 }
             }
-            Some(word @ (b"usemtl" | b"o" | b"mtllib" | b"s")) => self.grouping(word, line, number),
+            Some(word @ (b"usemtl" | b"o" | b"mtllib" | b"s")) => self.grouping(word, line, line_number),
             _ => {}
         }
         Ok(())
@@ -179,8 +189,15 @@ impl Statements {
             start = face.end;
         }
         raw.positions = Positions::Double(positions);
-        raw.notes = summary(self.notes);
+        raw.notes = self.remarks();
         Ok(raw)
+    }
+
+    /// What is to be said about the file.
+    fn remarks(&mut self) -> Vec<Note> {
+        let mut notes = summary(std::mem::take(&mut self.notes));
+        notes.extend(self.colored.map(|line| Note { line, message: NO_COLORS.into() }));
+        notes
     }
 
     /// Every vertex must be one that the file holds, if only further down. A texture coordinate or a normal that it

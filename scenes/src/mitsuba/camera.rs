@@ -106,12 +106,13 @@ impl Reader<'_> {
                 id,
                 "ldrfilm: its size counts; the picture is linear, --png and --exposure make it displayable",
             );
-            object.without_effect(&["gamma", "exposure", "tonemap_method", "key", "burn"]);
+            object.without_effect(&["exposure", "tonemap_method", "key", "burn"]);
         }
         object.without_effect(&[
             "file_format",
             "component_format",
             "filename",
+            "gamma",
             "banner",
             "attach_log",
             "high_quality_edges",
@@ -156,7 +157,8 @@ impl Reader<'_> {
             "tent" => PixelFilter::Tent { radius: width("radius", 1.0)? as f32 },
             "mitchell" => {
                 // A and B in some files, B and C in others; Mitsuba 3.9 takes the latter
-                PixelFilter::Mitchell { b: share("B", third)? as f32, c: share("C", third)? as f32 }
+                let (b, c) = if object.element.is_old { ("b", "c") } else { ("B", "C") };
+                PixelFilter::Mitchell { b: share(b, third)? as f32, c: share(c, third)? as f32 }
             }
             "catmullrom" => PixelFilter::CatmullRom,
             "lanczos" => {

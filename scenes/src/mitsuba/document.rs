@@ -265,7 +265,7 @@ impl Builder<'_> {
         let place = source.place(node.range().start);
         let mut element = Element {
             id: ElementId(self.document.elements.len()),
-            tag: if tag == "lookAt" { "lookat".into() } else { tag.into() },
+            tag: tag.into(),
             attributes: Vec::new(),
             children: Vec::new(),
             place,

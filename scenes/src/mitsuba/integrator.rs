@@ -14,13 +14,11 @@ const AOVS: [(&str, Aov); 5] = [
     ("shape_index", Aov::ShapeIndex),
 ];
 
-/// Integrators that hold another one, which is what counts.
-const WRAPPERS: &[&str] = &["aov", "moment", "adaptive"];
-
 /// Parameters that choose how to sample, not what: paths have the same expectation.
 const WITHOUT_EFFECT: &[&str] = &[
     "emitter_samples",
     "bsdf_samples",
+    "shading_samples",
     "samples_per_pass",
     "block_size",
     "timeout",
@@ -61,8 +59,10 @@ impl Reader<'_> {
         let nested = object.nested("integrator")?;
         object.without_effect(WITHOUT_EFFECT);
         let aovs = if kind == "aov" { self.aovs(&object)? } else { Vec::new() };
-        if let (true, Some(&(inner, _))) = (WRAPPERS.contains(&kind), nested.first()) {
+        // aov, moment, stokes, adaptive: what is inside counts
+        if let Some(&(inner, _)) = nested.first() {
             if kind != "aov" {
+                object.all_without_effect();
                 self.warn(id, format!("{kind}: rendered with the integrator inside"));
             }
             object.finish(&mut self.warnings);

@@ -33,7 +33,7 @@ impl Reader<'_> {
             return Ok(known.clone());
         }
         let label = object.element.label();
-        let loaded = if kind == "serialized" {
+        let mut loaded = if kind == "serialized" {
             let bytes = self.mesh_file(&path, &object.element.place, &label)?;
             serialized::read(&bytes, &path, options, number)?
         } else {
@@ -46,6 +46,10 @@ impl Reader<'_> {
                 obj::read(&bytes, &path, options)?
             }
         };
+        if let Some(mesh) = Arc::get_mut(&mut loaded.mesh) {
+            // others would only take memory
+            mesh.attributes.retain(|attribute| self.looked_up.contains(attribute.name.as_str()));
+        }
         let file = Arc::new(path);
         for note in &loaded.notes {
             let place = Place { file: Arc::clone(&file), line: note.line, column: note.line.min(1) };

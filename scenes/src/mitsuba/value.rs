@@ -98,7 +98,7 @@ fn operation(element: &Element) -> Result<DMat4, SceneError> {
             };
             Ok(DMat4::from_axis_angle(axis, number(element, "angle")?.to_radians()))
         }
-        "lookat" => look_at(element),
+        "lookat" | "lookAt" => look_at(element), // the latter of 0.x
         "matrix" => matrix(element),
         tag => {
             let help = crate::nearest::suggest(tag, "operations", OPERATIONS);

@@ -15,6 +15,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use limpid_frame::FrameError;
 use limpid_frame::compare::{Family, Finding, Parts};
 use limpid_scenes::LoadOptions;
 use serde_json::{Value, json};
@@ -99,7 +100,7 @@ fn for_mitsuba(scene: &Path, options: &Crosscheck) -> Result<ForMitsuba, CliErro
     if !scene.extension().is_some_and(other) {
         return Ok(ForMitsuba { file: scene.to_owned(), notes: Vec::new(), _folder: None });
     }
-    let failed = |source| CliError::Write { path: std::env::temp_dir(), source };
+    let failed = |source| CliError::from(FrameError::WriteFailed { path: std::env::temp_dir(), source });
     let folder = tempfile::tempdir().map_err(failed)?;
     let file = folder.path().join("scene.xml");
     let reading = LoadOptions { defines: options.reading.defines.clone(), strict: options.reading.strict };

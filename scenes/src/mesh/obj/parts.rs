@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::super::polygon::{self, triangulate};
 use super::super::raw::{Positions, RawMesh};
 use super::super::{LoadedMesh, MeshOptions, Note};
-use super::{ABSENT, Face, Statements, summary};
+use super::{ABSENT, Face, Statements};
 use crate::SceneError;
 
 /// `usemtl` or `o`: from a face on, another name holds.
@@ -52,7 +52,8 @@ pub(crate) fn read_parts(
         let mesh = statements.part(&faces, &mut budget);
         parts.push(ObjPart { object, material, line, mesh });
     }
-    Ok((parts, statements.libraries, summary(statements.notes)))
+    let remarks = statements.remarks();
+    Ok((parts, statements.libraries, remarks))
 }
 
 /// A part before its mesh is made: the ranges of its faces.

@@ -83,3 +83,13 @@ fn numbers_that_are_none_drop_their_faces_only() {
     assert_eq!(loaded.mesh.triangles.len(), 1);
     assert!(loaded.notes[0].message.contains("first face 1"), "{:?}", loaded.notes);
 }
+
+#[test]
+fn vertex_colours_are_passed_over_with_one_remark_at_the_first() {
+    let square = "v 0 0 0\nv 1 0 0 1.0\nv 1 1 0 0.1 0.2 0.3\nv 0 1 0 0.4 0.5 0.6 # red\nf 1 2 3 4\n";
+    let loaded = load(square, AS_IT_IS).unwrap();
+    assert_eq!(loaded.mesh.positions[2], [1.0, 1.0, 0.0]);
+    assert_eq!(loaded.notes, [Note { line: 3, message: super::NO_COLORS.into() }]);
+    let commented = load("v 0 0 0 # four five six\nv 1 0 0 1\nv 0 1 0\nf 1 2 3\n", AS_IT_IS).unwrap();
+    assert_eq!(commented.notes, []);
+}

@@ -1,9 +1,10 @@
 //! Shapes that hold others, mesh files of several meshes, and what meshes carry.
 
 use std::fs;
+use std::sync::Arc;
 
-use super::{loaded, scene, try_load};
-use crate::{Color, GroupId, LoadOptions, MaterialId, ShapeKind, TextureKind, load};
+use super::{loaded, try_load};
+use crate::{Color, GroupId, LoadOptions, MaterialId, Scene, ShapeKind, TextureKind, load};
 
 const GROUP: &str = r#"<shape type="shapegroup" id="tree">
     <shape type="sphere" id="crown"><bsdf type="diffuse" id="leaf"/></shape>
@@ -140,10 +141,23 @@ fn attributes_follow_their_vertices_and_faces() {
         nan 0 0 1 2 3 9\n0 0 0 0 255 0 1\n1 0 0 255 0 0 2\n1 1 0 0 0 255 inf\n0 1 0 255 255 255 4\n\
         3 0 1 2 7\n4 1 2 3 4 8\n";
     fs::write(folder.path().join("m.ply"), ply).unwrap();
-    let text = scene(r#"<shape type="ply"><string name="filename" value="m.ply"/></shape>"#);
-    fs::write(folder.path().join("scene.xml"), text).unwrap();
-    let scene = load(&folder.path().join("scene.xml"), &LoadOptions::default()).unwrap();
-    let ShapeKind::Mesh(mesh) = &scene.shapes[0].kind else { unreachable!("it is a mesh") };
+    let with = |names: &[&str]| {
+        let texture = |name: &&str| {
+            format!(r#"<texture type="mesh_attribute"><string name="name" value="{name}"/></texture>"#)
+        };
+        let textures: String = names.iter().map(texture).collect();
+        let shape = r#"<shape type="ply"><string name="filename" value="m.ply"/></shape>"#;
+        fs::write(folder.path().join("scene.xml"), super::scene(&format!("{shape}{textures}"))).unwrap();
+        load(&folder.path().join("scene.xml"), &LoadOptions::default()).unwrap()
+    };
+    let scene = with(&["vertex_color", "vertex_w", "face_weight"]);
+    let mesh = |scene: &Scene| match &scene.shapes[0].kind {
+        ShapeKind::Mesh(mesh) => Arc::clone(mesh),
+        other => panic!("{other:?}"),
+    };
+    let kept: Vec<_> = mesh(&with(&["vertex_w"])).attributes.iter().map(|a| a.name.clone()).collect();
+    assert_eq!(kept, ["vertex_w"]); // what no texture looks up is let go
+    let mesh = mesh(&scene);
     let values: Vec<_> =
         mesh.attributes.iter().map(|a| (a.name.as_str(), a.channels, &a.values[..])).collect();
     let color = [0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
