@@ -24,7 +24,7 @@ use cameras::CAMERAS;
 use glass::GLASS;
 use lights::{LAMP, LIGHTS};
 use materials::MATERIALS;
-use nested::NESTED;
+use nested::{NESTED, SHEETS};
 use principled::PRINCIPLED;
 use shapes::SHAPES;
 
@@ -78,6 +78,10 @@ pub fn rows() -> Vec<Row> {
     let mut add = |name: String, in_subset, xml| rows.push(Row { name, xml, in_subset });
     for &(name, in_subset, material) in materials() {
         add(name.into(), in_subset, scene(PINHOLE, BALL, material, LAMP));
+    }
+    for &(name, in_subset, material) in SHEETS {
+        let grey = BALL.replace("{}", r#"<bsdf type="diffuse"/>"#);
+        add(format!("sheet: {name}"), in_subset, scene(PINHOLE, &grey, material, LAMP));
     }
     let rough = materials().find(|m| m.0 == "roughconductor, ggx 0.3").expect("is in the list").2;
     for &(name, in_subset, light) in LIGHTS {
