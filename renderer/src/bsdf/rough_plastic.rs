@@ -55,8 +55,14 @@ impl Coating {
 
     /// Transmitted fraction at a cosine.
     #[inline]
-    fn transmittance(&self, cos: f32) -> f32 {
+    pub(super) fn transmittance(&self, cos: f32) -> f32 {
         lerp(&self.transmittance, cos)
+    }
+
+    /// Reflected fraction of diffuse light from inside.
+    #[cfg(test)]
+    pub(super) fn internal(&self) -> f32 {
+        self.internal
     }
 }
 

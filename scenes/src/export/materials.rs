@@ -143,7 +143,10 @@ impl Writer<'_> {
                 self.color("specular_reflectance", *specular_reflectance)?;
                 self.color("specular_transmittance", *specular_transmittance)
             }
-            MaterialKind::RoughDiffuse { .. } | MaterialKind::Phong { .. } | MaterialKind::Ward { .. } => {
+            MaterialKind::RoughDiffuse { .. }
+            | MaterialKind::Phong { .. }
+            | MaterialKind::Ward { .. }
+            | MaterialKind::Coated { .. } => {
                 unreachable!("`refuse_old` has refused it")
             }
             MaterialKind::Principled(p) => self.principled(p),
@@ -229,6 +232,7 @@ fn refuse_old(material: &Material) -> Result<(), SceneError> {
     let help = match material.kind {
         MaterialKind::RoughDiffuse { .. } => "make it diffuse",
         MaterialKind::Phong { .. } | MaterialKind::Ward { .. } => "make it roughplastic",
+        MaterialKind::Coated { .. } => "use the bsdf inside, or make it principled with a clearcoat",
         _ => return Ok(()),
     };
     let (element, kind) = (format!("bsdf \"{}\"", material.name), plugin(&material.kind));
@@ -250,6 +254,8 @@ fn plugin(kind: &MaterialKind) -> &'static str {
         MaterialKind::RoughDiffuse { .. } => "roughdiffuse",
         MaterialKind::Phong { .. } => "phong",
         MaterialKind::Ward { .. } => "ward",
+        MaterialKind::Coated { coat, .. } if coat.facets.is_some() => "roughcoating",
+        MaterialKind::Coated { .. } => "coating",
         MaterialKind::Principled(_) => "principled",
         MaterialKind::PrincipledThin(_) => "principledthin",
         MaterialKind::Gltf(p) if p.thin && p.transmits() => "principledthin",
