@@ -56,3 +56,6 @@ impl CoatModel {
         coat.shared(wo.z, textures.color(self.specular, uv))
     }
 }
+
+#[cfg(test)]
+mod tests;
