@@ -331,13 +331,13 @@ impl<'a> Lobes<'a> {
         let [outer, inner] = self.coats(lobe);
         let below = coat::enter(inner, turn.to_lobe(coat::enter(outer, wo)?.v)?)?.v;
         let draw = |(i, u): (usize, Vec2)| {
-            let u_lobe = (i * 55 % 144) as f32 / 144.0;
+            let u_lobe = (i * 21 % 55) as f32 / 55.0;
             self.sample_coated(lobe, turn, wo, u_lobe, u).map_or(Split::ZERO, |s| s.weight)
         };
-        let sum = albedo::lattice::<144, 89>().enumerate().map(draw).fold(Split::ZERO, |a, b| a + b);
+        let sum = albedo::lattice::<55, 34>().enumerate().map(draw).fold(Split::ZERO, |a, b| a + b);
         Some(BsdfFeatures {
-            albedo: sum.total() / 144.0,
-            diffuse_albedo: sum.diffuse / 144.0,
+            albedo: sum.total() / 55.0,
+            diffuse_albedo: sum.diffuse / 55.0,
             roughness: lobe.bsdf.features(below).roughness,
         })
     }
