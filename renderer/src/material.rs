@@ -1,6 +1,7 @@
 //! From a scene's materials, with their textures and nesting, to the numbers of a [`Bsdf`] at a hit.
 
 mod absorption;
+mod coat;
 mod flatten;
 mod perturb;
 mod principled;
@@ -8,6 +9,8 @@ mod principled;
 use limpid_scenes::{
     Color, ConductorIor, Distribution, Material, MaterialId, MaterialKind, Scalar, Scene, WardVariant,
 };
+
+use glam::Vec3;
 
 use crate::bsdf::{
     Bsdf, Coating, Conductor, Dielectric, Diffuse, Ior, Lobes, Microfacet, Perturbation, Phong, Plastic,
@@ -124,7 +127,8 @@ impl Materials {
     /// # Errors
     ///
     /// An index of refraction that is not a positive number, a two-sided material around one that has two sides
-    /// already, a normal map in a normal map, and a blend of too many BSDFs.
+    /// already, a normal map in a normal map, a coat over another or over what lets light through, and a blend of too many
+    /// BSDFs.
     pub fn prepare(scene: &Scene) -> Result<Self, PrepareError> {
         let mut coatings = Coatings::default();
         let mut materials = Vec::with_capacity(scene.materials.len());
@@ -172,24 +176,33 @@ impl Materials {
         holes.iter().map(|hole| share(hole, at.uv, textures)).sum::<f32>().min(1.0)
     }
 
-    /// Adds what scatters at a hit where the share `hole` is not there; the weights refer to the rest. `perturbed` makes of a
-    /// normal map and the question whether the surface is turned over before it what the map does at the hit.
+    /// Adds what scatters at a hit, seen from `wo`, where the share `hole` is not there; the weights refer to the rest.
+    /// `perturbed` makes of a normal map and the question whether the surface is turned over before it what the map does at
+    /// the hit.
     #[inline]
     pub fn add_lobes<'a>(
         &'a self,
         at: At,
+        wo: Vec3,
         hole: f32,
         textures: &Textures,
         mut perturbed: impl FnMut(&Map, bool) -> Perturbation,
         lobes: &mut Lobes<'a>,
     ) {
         let there = 1.0 - hole;
-        for Piece { share: of_piece, before, map, after, model } in &self.side(at).pieces {
+        let side = self.side(at);
+        for coat in &side.coats {
+            lobes.push_coat(coat.at(wo, &self.coatings, at.uv, textures));
+        }
+        for Piece { share: of_piece, before, map, after, layer, model } in &side.pieces {
             let weight =
                 if of_piece.factors.is_empty() { 1.0 } else { share(of_piece, at.uv, textures) / there };
+            if weight <= 0.0 {
+                continue; // before its normal map and textures are looked up
+            }
             let map = map.as_ref().map(|map| perturbed(map, *before));
             let turn = Turn { before: *before, map, after: *after };
-            lobes.push(weight.min(1.0), turn, self.at(model, at.uv, textures));
+            lobes.push(weight.min(1.0), turn, *layer, self.at(model, at.uv, textures));
         }
     }
 
@@ -319,17 +332,19 @@ impl Coatings {
     }
 }
 
+/// Index inside over that outside.
+fn relative(material: &Material, int_ior: f32, ext_ior: f32) -> Result<f32, PrepareError> {
+    let eta = int_ior / ext_ior;
+    if int_ior > 0.0 && ext_ior > 0.0 && eta.is_normal() {
+        return Ok(eta);
+    }
+    let problem =
+        format!("the indices of refraction {int_ior} (inside) and {ext_ior} (outside) have no ratio");
+    Err(error(material, problem, "give two positive numbers, such as 1.5 and 1"))
+}
+
 fn prepare(material: &Material, coatings: &mut Coatings) -> Result<Model, PrepareError> {
-    let relative = |int_ior: f32, ext_ior: f32| {
-        let eta = int_ior / ext_ior;
-        if int_ior > 0.0 && ext_ior > 0.0 && eta.is_normal() {
-            Ok(eta)
-        } else {
-            let problem =
-                format!("the indices of refraction {int_ior} (inside) and {ext_ior} (outside) have no ratio");
-            Err(error(material, problem, "give two positive numbers, such as 1.5 and 1"))
-        }
-    };
+    let relative = |int_ior: f32, ext_ior: f32| relative(material, int_ior, ext_ior);
     Ok(match material.kind {
         MaterialKind::Diffuse { reflectance } => Model::Diffuse { albedo: reflectance },
         MaterialKind::Conductor { ior, specular_reflectance: specular } => Model::Conductor { ior, specular },
@@ -417,6 +432,7 @@ fn prepare(material: &Material, coatings: &mut Coatings) -> Result<Model, Prepar
             Model::Gltf(limpid_scenes::GltfMaterial { ior: relative(p.ior, 1.0)?, ..**p })
         }
         MaterialKind::TwoSided { .. }
+        | MaterialKind::Coated { .. }
         | MaterialKind::Null
         | MaterialKind::Mask { .. }
         | MaterialKind::Blend { .. }

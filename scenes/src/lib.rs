@@ -29,6 +29,7 @@
 
 mod as_mitsuba;
 mod cameras;
+mod coat;
 mod daylight;
 mod error;
 mod export;
@@ -54,6 +55,7 @@ mod textures;
 
 pub use as_mitsuba::as_mitsuba;
 pub use cameras::*;
+pub use coat::Coat;
 pub use error::SceneError;
 pub use export::{ExportError, Exported, export_mitsuba};
 pub use gltf_material::GltfMaterial;

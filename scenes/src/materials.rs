@@ -2,7 +2,7 @@
 
 use crate::gltf_material::GltfMaterial;
 use crate::principled::{Principled, PrincipledThin};
-use crate::{Color, MaterialId, Place, Scalar, Scene};
+use crate::{Coat, Color, MaterialId, Place, Scalar, Scene};
 
 /// A surface's scattering, with its name.
 #[derive(Clone, Debug)]
@@ -149,6 +149,14 @@ pub enum MaterialKind {
     PrincipledThin(Box<PrincipledThin>),
     /// The material of glTF 2.0.
     Gltf(Box<GltfMaterial>),
+    /// A material under a dielectric layer, which adds its own reflection; light that the layer would throw back
+    /// onto the material is lost.
+    Coated {
+        /// The layer.
+        coat: Coat,
+        /// What it covers: nothing that lets light through, nor another coat.
+        inner: MaterialId,
+    },
     /// Gives both sides of a surface a reflecting material.
     TwoSided {
         /// Seen from the side of the normal.
@@ -261,6 +269,7 @@ impl MaterialKind {
             | Self::RoughDiffuse { .. }
             | Self::Phong { .. }
             | Self::Ward { .. }
+            | Self::Coated { .. }
             | Self::TwoSided { .. }
             | Self::Null
             | Self::Mask { .. }
@@ -268,6 +277,11 @@ impl MaterialKind {
             | Self::Mixture { .. }
             | Self::Perturbed { .. } => false,
         }
+    }
+
+    /// Whether the model itself lets light pass from one side to the other, straight on or not.
+    pub fn lets_through(&self) -> bool {
+        self.transmits() || matches!(self, Self::Null | Self::Mask { .. })
     }
 
     /// Whether its inside takes some of the light.
@@ -294,6 +308,7 @@ impl MaterialKind {
             | Self::ThinDielectric { .. }
             | Self::Plastic { .. }
             | Self::RoughPlastic { .. }
+            | Self::Coated { .. }
             | Self::TwoSided { .. }
             | Self::Null
             | Self::Mixture { .. }
@@ -319,7 +334,9 @@ impl MaterialKind {
             | Self::PrincipledThin(_)
             | Self::Gltf(_)
             | Self::Null => Vec::new(),
-            Self::Mask { inner, .. } | Self::Perturbed { inner, .. } => vec![*inner],
+            Self::Mask { inner, .. } | Self::Perturbed { inner, .. } | Self::Coated { inner, .. } => {
+                vec![*inner]
+            }
             Self::TwoSided { front: a, back: b } | Self::Blend { first: a, second: b, .. } => vec![*a, *b],
             Self::Mixture { parts } => parts.iter().map(|&(_, inner)| inner).collect(),
         }

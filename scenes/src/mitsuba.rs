@@ -6,6 +6,7 @@
 
 mod bsdfs;
 mod camera;
+mod coats;
 mod daylight;
 mod document;
 mod emitters;

@@ -5,9 +5,12 @@
 
 mod cameras;
 mod files;
+mod glass;
 mod lights;
 mod materials;
+mod nested;
 mod preview;
+mod principled;
 mod shapes;
 
 use std::fs;
@@ -18,8 +21,11 @@ pub use files::write_files;
 pub use preview::write_previews;
 
 use cameras::CAMERAS;
+use glass::GLASS;
 use lights::{LAMP, LIGHTS};
 use materials::MATERIALS;
+use nested::{NESTED, SHEETS};
+use principled::PRINCIPLED;
 use shapes::SHAPES;
 
 /// A scene of the table.
@@ -61,14 +67,23 @@ fn scene(camera: &str, shape: &str, material: &str, light: &str) -> String {
     )
 }
 
+/// The lists of materials, one after the other.
+fn materials() -> impl Iterator<Item = &'static Named> {
+    [MATERIALS, GLASS, PRINCIPLED, NESTED].into_iter().flatten()
+}
+
 /// All scenes of the table. The files that they refer to are written by [`write_files`].
 pub fn rows() -> Vec<Row> {
     let mut rows = Vec::new();
     let mut add = |name: String, in_subset, xml| rows.push(Row { name, xml, in_subset });
-    for &(name, in_subset, material) in MATERIALS {
+    for &(name, in_subset, material) in materials() {
         add(name.into(), in_subset, scene(PINHOLE, BALL, material, LAMP));
     }
-    let rough = MATERIALS.iter().find(|m| m.0 == "roughconductor, ggx 0.3").expect("is in the list").2;
+    for &(name, in_subset, material) in SHEETS {
+        let grey = BALL.replace("{}", r#"<bsdf type="diffuse"/>"#);
+        add(format!("sheet: {name}"), in_subset, scene(PINHOLE, &grey, material, LAMP));
+    }
+    let rough = materials().find(|m| m.0 == "roughconductor, ggx 0.3").expect("is in the list").2;
     for &(name, in_subset, light) in LIGHTS {
         add(format!("light: {name}"), in_subset, scene(PINHOLE, BALL, TEXTURED, light));
         add(format!("light: {name}, on metal"), false, scene(PINHOLE, BALL, rough, light));

@@ -6,78 +6,84 @@ use super::{BsdfEval, BsdfFeatures, BsdfSample, albedo, specular_share};
 use crate::color::{Rgb, Split};
 use crate::sampling::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 
-/// The colours of the two lobes, and how to choose between them.
+/// A white lobe, tinted, over a diffuse base.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Glossy {
+pub struct Glossy<L> {
     diffuse: Rgb,
     specular: Rgb,
     specular_share: f32,
+    lobe: L,
+}
+
+/// A lobe before its colour, above the surface.
+pub trait WhiteLobe {
+    /// A direction, perhaps below the horizon.
+    fn draw(&self, wo: Vec3, u: Vec2) -> Vec3;
+    /// For a pair of directions above the surface.
+    fn at(&self, wo: Vec3, wi: Vec3) -> White;
+    /// Its width as a microfacet lobe.
+    fn alpha(&self) -> f32;
 }
 
 /// A white lobe for a pair of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WhiteLobe {
+pub struct White {
     /// Of its own sampling, per steradian.
     pub pdf: f32,
     /// f · cos θi / pdf.
     pub weight: f32,
 }
 
-impl Glossy {
+impl<L: WhiteLobe> Glossy<L> {
     /// Colours that add up to more than 1 in a channel are scaled together until they do not, as in Mitsuba 0.x (which
     /// scales to 0.99, and a textured surface as a whole).
     #[inline]
-    pub fn new(diffuse: Rgb, specular: Rgb) -> Self {
+    pub fn of(lobe: L, diffuse: Rgb, specular: Rgb) -> Self {
         let total = (diffuse + specular).max_element();
         let scale = if total > 1.0 { 1.0 / total } else { 1.0 };
         let specular_share = specular_share(specular, diffuse);
-        Self { diffuse: diffuse * scale, specular: specular * scale, specular_share }
+        Self { diffuse: diffuse * scale, specular: specular * scale, specular_share, lobe }
     }
 
-    /// Value and density of both lobes, both directions being above the surface.
+    /// Chooses a lobe by its colour.
     #[inline]
-    pub fn eval(&self, wi: Vec3, lobe: WhiteLobe) -> BsdfEval {
+    pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
+        if wo.z.is_nan() || wo.z <= 0.0 {
+            return None;
+        }
+        let wi = if u_lobe < self.specular_share { self.lobe.draw(wo, u) } else { cosine_hemisphere(u) };
+        self.eval(wo, wi).drawn(wi, 1.0)
+    }
+
+    /// Value and density of both lobes.
+    #[inline]
+    pub fn eval(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
+        if !(wo.z > 0.0 && wi.z > 0.0) {
+            return BsdfEval::ZERO;
+        }
+        let White { pdf, weight } = self.lobe.at(wo, wi);
         let cosine = cosine_hemisphere_pdf(wi);
         BsdfEval {
-            f_cos: Split {
-                diffuse: self.diffuse * cosine,
-                specular: self.specular * (lobe.weight * lobe.pdf),
-            },
-            pdf: self.specular_share * lobe.pdf + (1.0 - self.specular_share) * cosine,
+            f_cos: Split { diffuse: self.diffuse * cosine, specular: self.specular * (weight * pdf) },
+            pdf: self.specular_share * pdf + (1.0 - self.specular_share) * cosine,
         }
     }
 
-    /// Draws from the white lobe by `draw`, or the diffuse one; `eval` is of both.
-    #[inline]
-    pub fn sample(
-        &self,
-        u_lobe: f32,
-        u: Vec2,
-        draw: impl FnOnce(Vec2) -> Vec3,
-        eval: impl FnOnce(Vec3) -> BsdfEval,
-    ) -> Option<BsdfSample> {
-        let wi = if u_lobe < self.specular_share { draw(u) } else { cosine_hemisphere(u) };
-        let value = eval(wi);
-        // Below, in the far tail of a needle over a black base, the quotient would lose its digits.
-        (value.pdf >= f32::MIN_POSITIVE).then(|| BsdfSample {
-            wi,
-            weight: value.f_cos * (1.0 / value.pdf),
-            pdf: value.pdf,
-            delta: false,
-            eta: 1.0,
-        })
+    /// For the feature layers: the white lobe's albedo by quadrature over its own draws.
+    pub fn features(&self, wo: Vec3) -> BsdfFeatures {
+        let weight = |u| {
+            let wi = self.lobe.draw(wo, u);
+            if wi.z > 0.0 { self.lobe.at(wo, wi).weight } else { 0.0 }
+        };
+        let white = albedo::lattice::<55, 34>().map(weight).sum::<f32>() / 55.0;
+        let roughness = if self.has_base() { 1.0 } else { self.alpha().sqrt() };
+        BsdfFeatures { albedo: self.diffuse + self.specular * white, diffuse_albedo: self.diffuse, roughness }
     }
 
-    /// For the feature layers: the white lobe's albedo by quadrature over `POINTS` of its own draws, whose weights `lobe`
-    /// gives (0 below the horizon). `alpha` is its width as a microfacet lobe.
-    pub fn features<const POINTS: u32, const STEP: u32>(
-        &self,
-        alpha: f32,
-        lobe: impl Fn(Vec2) -> f32,
-    ) -> BsdfFeatures {
-        let white = albedo::lattice::<POINTS, STEP>().map(lobe).sum::<f32>() / POINTS as f32;
-        let roughness = if self.has_base() { 1.0 } else { alpha.sqrt() };
-        BsdfFeatures { albedo: self.diffuse + self.specular * white, diffuse_albedo: self.diffuse, roughness }
+    /// Width of the lobe as a microfacet lobe.
+    #[inline]
+    pub fn alpha(&self) -> f32 {
+        self.lobe.alpha()
     }
 
     /// Whether there is a diffuse part.

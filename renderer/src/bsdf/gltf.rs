@@ -228,14 +228,7 @@ impl Gltf {
             wi
         };
         let wi = if wo.z < 0.0 { -wi } else { wi };
-        let value = self.eval(wo, wi);
-        (value.pdf >= f32::MIN_POSITIVE).then(|| BsdfSample {
-            wi,
-            weight: value.f_cos * (1.0 / value.pdf),
-            pdf: value.pdf,
-            delta: false,
-            eta: relative,
-        })
+        self.eval(wo, wi).drawn(wi, relative)
     }
 
     /// `wo` turned above the surface through the origin, and the relative index there.

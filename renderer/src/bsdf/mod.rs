@@ -9,6 +9,7 @@ mod albedo;
 mod beckmann;
 mod burley;
 mod clearcoat;
+mod coat;
 mod conductor;
 mod dielectric;
 mod diffuse;
@@ -32,11 +33,12 @@ mod ward;
 use glam::{Vec2, Vec3};
 
 use crate::color::{Rgb, Split};
+pub use coat::{Coat, Layer};
 pub use conductor::{Conductor, Ior};
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
 pub use gltf::{Gltf, GltfDials};
-pub use lobes::{Lobes, MOST_LOBES, Perturbation, Turn};
+pub use lobes::{Lobes, MOST_COATS, MOST_LOBES, Perturbation, Turn};
 pub use microfacet::Microfacet;
 pub use phong::Phong;
 pub use plastic::Plastic;
@@ -76,6 +78,20 @@ pub struct BsdfEval {
 impl BsdfEval {
     /// Nothing scattered, never sampled.
     pub const ZERO: Self = Self { f_cos: Split::ZERO, pdf: 0.0 };
+
+    /// The sample of a direction drawn by this density. `None` below the smallest normal number: in the far tail of a
+    /// needle the quotient would lose its digits.
+    #[inline]
+    fn drawn(self, wi: Vec3, eta: f32) -> Option<BsdfSample> {
+        let Self { f_cos, pdf } = self;
+        (pdf >= f32::MIN_POSITIVE).then(|| BsdfSample {
+            wi,
+            weight: f_cos * (1.0 / pdf),
+            pdf,
+            delta: false,
+            eta,
+        })
+    }
 }
 
 /// What the feature layers want to know of a BSDF, for one `wo`.

@@ -4,8 +4,7 @@ use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3};
 
-use super::glossy::{Glossy, WhiteLobe};
-use super::{BsdfEval, BsdfFeatures, BsdfSample};
+use super::glossy::{Glossy, White, WhiteLobe};
 use crate::color::Rgb;
 
 /// A cosine lobe around the mirror direction r over a diffuse base (Lafortune and Willems 1994):
@@ -15,9 +14,11 @@ use crate::color::Rgb;
 /// ```
 ///
 /// Seen from straight above the lobe reflects ρ_s; towards the horizon it loses most of that, 93 % of it for n = 30.
+pub type Phong = Glossy<PhongLobe>;
+
+/// The lobe of [`Phong`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Phong {
-    colors: Glossy,
+pub struct PhongLobe {
     exponent: f32,
 }
 
@@ -29,9 +30,11 @@ impl Phong {
     #[inline]
     pub fn new(exponent: f32, diffuse: Rgb, specular: Rgb) -> Self {
         let exponent = exponent.clamp(0.0, LARGEST_EXPONENT).max(0.0); // the latter for NaN
-        Self { colors: Glossy::new(diffuse, specular), exponent }
+        Self::of(PhongLobe { exponent }, diffuse, specular)
     }
+}
 
+impl WhiteLobe for PhongLobe {
     /// A direction around the mirror one with density (n + 1) / 2π · cosⁿ.
     #[inline]
     fn draw(&self, wo: Vec3, u: Vec2) -> Vec3 {
@@ -44,52 +47,19 @@ impl Phong {
         (sin * (cos_phi * x + sin_phi * y) + (1.0 - away) * r).normalize()
     }
 
-    /// The white lobe.
     #[inline]
-    fn lobe(&self, wo: Vec3, wi: Vec3) -> WhiteLobe {
+    fn at(&self, wo: Vec3, wi: Vec3) -> White {
         // By what r·wi is short of 1: the power multiplies what rounding leaves of the difference.
         let away = 0.5 * (mirrored(wo) - wi).length_squared();
         let power = if away < 1.0 { (self.exponent * (-away).ln_1p()).exp() } else { 0.0 };
         let pdf = (self.exponent + 1.0) / TAU * power;
-        WhiteLobe { pdf, weight: (self.exponent + 2.0) / (self.exponent + 1.0) * wi.z }
-    }
-
-    /// Chooses a lobe by its colour.
-    #[inline]
-    pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
-        if wo.z.is_nan() || wo.z <= 0.0 {
-            return None;
-        }
-        self.colors.sample(u_lobe, u, |u| self.draw(wo, u), |wi| self.eval(wo, wi))
-    }
-
-    /// Value and density of both lobes.
-    #[inline]
-    pub fn eval(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
-        if !(wo.z > 0.0 && wi.z > 0.0) {
-            return BsdfEval::ZERO;
-        }
-        self.colors.eval(wi, self.lobe(wo, wi))
-    }
-
-    /// For the feature layers.
-    pub fn features(&self, wo: Vec3) -> BsdfFeatures {
-        self.colors.features::<55, 34>(self.alpha(), |u| {
-            let wi = self.draw(wo, u);
-            if wi.z > 0.0 { self.lobe(wo, wi).weight } else { 0.0 }
-        })
+        White { pdf, weight: (self.exponent + 2.0) / (self.exponent + 1.0) * wi.z }
     }
 
     /// Width of a Beckmann lobe like this one (Walter et al. 2007).
     #[inline]
-    pub fn alpha(&self) -> f32 {
+    fn alpha(&self) -> f32 {
         (2.0 / (self.exponent + 2.0)).sqrt()
-    }
-
-    /// Whether there is a diffuse part.
-    #[inline]
-    pub fn has_base(&self) -> bool {
-        self.colors.has_base()
     }
 }
 

@@ -191,14 +191,7 @@ impl Principled {
         } else {
             return None;
         };
-        let value = self.eval(wo, wi);
-        (value.pdf >= f32::MIN_POSITIVE).then(|| BsdfSample {
-            wi,
-            weight: value.f_cos * (1.0 / value.pdf),
-            pdf: value.pdf,
-            delta: false,
-            eta,
-        })
+        self.eval(wo, wi).drawn(wi, eta)
     }
 
     /// Direction from a facet for a `wo` above the facets, and the relative index that light then goes through.

@@ -155,14 +155,7 @@ impl PrincipledThin {
             }
         };
         let wi = turned(wi, wo.z);
-        let value = self.eval(wo, wi);
-        (value.pdf >= f32::MIN_POSITIVE).then(|| BsdfSample {
-            wi,
-            weight: value.f_cos * (1.0 / value.pdf),
-            pdf: value.pdf,
-            delta: false,
-            eta: 1.0,
-        })
+        self.eval(wo, wi).drawn(wi, 1.0)
     }
 
     /// Value and density of all lobes.

@@ -55,8 +55,14 @@ impl Coating {
 
     /// Transmitted fraction at a cosine.
     #[inline]
-    fn transmittance(&self, cos: f32) -> f32 {
+    pub(super) fn transmittance(&self, cos: f32) -> f32 {
         lerp(&self.transmittance, cos)
+    }
+
+    /// Reflected fraction of diffuse light from inside.
+    #[cfg(test)]
+    pub(super) fn internal(&self) -> f32 {
+        self.internal
     }
 }
 
@@ -102,15 +108,7 @@ impl<'a> RoughPlastic<'a> {
         }
         let probability = self.specular_probability(self.coating.transmittance(wo.z));
         let wi = if u_lobe < probability { self.coating.facets.sample(wo, u)? } else { cosine_hemisphere(u) };
-        let value = self.eval(wo, wi);
-        // Below, in the far tail of a needle over a black base, the quotient would lose its digits.
-        (value.pdf >= f32::MIN_POSITIVE).then(|| BsdfSample {
-            wi,
-            weight: value.f_cos * (1.0 / value.pdf),
-            pdf: value.pdf,
-            delta: false,
-            eta: 1.0,
-        })
+        self.eval(wo, wi).drawn(wi, 1.0)
     }
 
     /// Value and density of both lobes.

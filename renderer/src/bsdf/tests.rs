@@ -197,8 +197,9 @@ impl std::ops::Sub for Split {
 
 #[test]
 fn samples_follow_their_density() {
-    for (name, bsdf) in cases().into_iter().filter(|(_, bsdf)| bsdf.has_non_delta()) {
-        let below: &[f32] = if has_two_sides(&bsdf) { &[-0.8, -0.2] } else { &[] };
+    for case in cases().into_iter().filter(|(_, bsdf)| bsdf.has_non_delta()) {
+        let below: &[f32] = if has_two_sides(&case) { &[-1.0, -0.8, -0.2] } else { &[] };
+        let (name, bsdf) = case;
         for &cos in [1.0, 0.6, 0.1].iter().chain(below) {
             let wo = direction(cos);
             println!("{name}, cos {cos}");
@@ -299,14 +300,17 @@ fn rough_refraction_is_the_same_both_ways_but_for_the_solid_angle() {
     assert!(seen > 1000, "{seen}");
 }
 
-fn has_two_sides(bsdf: &Bsdf) -> bool {
+/// In a name: scatters on both sides.
+const BOTH: &str = "both sides";
+
+fn has_two_sides((name, bsdf): &Case) -> bool {
     matches!(bsdf, Bsdf::Dielectric(_) | Bsdf::RoughDielectric(_) | Bsdf::ThinDielectric(_))
+        || name.contains(BOTH)
 }
 
 #[test]
 fn one_sided_models_are_black_from_behind() {
-    let one_sided = |(name, bsdf): &Case| !has_two_sides(bsdf) && !name.contains(burley::BOTH);
-    for (name, bsdf) in all().into_iter().filter(one_sided) {
+    for (name, bsdf) in all().into_iter().filter(|case| !has_two_sides(case)) {
         let (up, down) = (direction(0.7), direction(-0.7));
         assert_eq!(bsdf.sample(down, 0.3, Vec2::splat(0.3)), None, "{name}");
         for (wo, wi) in [(up, down), (down, up), (down, down)] {
@@ -420,8 +424,11 @@ fn feature_error(bsdf: &Bsdf, wo: Vec3) -> f32 {
 
 #[test]
 fn albedos_for_the_layers_are_within_five_per_cent() {
-    for (name, bsdf) in all().into_iter().filter(|(name, _)| !name.contains("out of range")) {
-        let below: &[f32] = if has_two_sides(&bsdf) { &[-0.9, -0.5, -0.1] } else { &[] };
+    for case in all().into_iter().filter(|(name, _)| !name.contains("out of range")) {
+        let (name, bsdf) = case;
+        // Of Burley's and glTF's the edge of total reflection is off by up to 10 % on one side.
+        let below: &[f32] =
+            if has_two_sides(&case) && !name.contains(BOTH) { &[-0.9, -0.5, -0.1] } else { &[] };
         for wo in [1.0, 0.7, 0.4, 0.15, 0.03].iter().chain(below).copied().map(direction) {
             let error = feature_error(&bsdf, wo);
             // Of rough glass near index match, F bends too sharply for the quadrature.

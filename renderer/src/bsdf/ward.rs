@@ -5,8 +5,7 @@ use std::f32::consts::{PI, TAU};
 use glam::{Vec2, Vec3};
 use limpid_scenes::WardVariant;
 
-use super::glossy::{Glossy, WhiteLobe};
-use super::{BsdfEval, BsdfFeatures, BsdfSample};
+use super::glossy::{Glossy, White, WhiteLobe};
 use crate::color::Rgb;
 
 /// A Gaussian in the slope of the half vector h over a diffuse base. With D Beckmann's distribution
@@ -20,9 +19,11 @@ use crate::color::Rgb;
 /// Towards the horizon the first loses light (90 % at cos θo = 0.03 and width 0.1) and in the end gains some, the second
 /// gains it without bound (47 % there); the third keeps within 1. All are sampled as Walter (2005) does, by D cos θh,
 /// without masking.
+pub type Ward = Glossy<WardLobe>;
+
+/// The lobe of [`Ward`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ward {
-    colors: Glossy,
+pub struct WardLobe {
     variant: WardVariant,
     alpha: Vec2,
 }
@@ -39,9 +40,12 @@ impl Ward {
     #[inline]
     pub fn new(variant: WardVariant, alpha_u: f32, alpha_v: f32, diffuse: Rgb, specular: Rgb) -> Self {
         let alpha = Vec2::new(alpha_u.max(SMALLEST_ALPHA), alpha_v.max(SMALLEST_ALPHA));
-        Self { colors: Glossy::new(diffuse, specular), variant, alpha: alpha.min(Vec2::splat(LARGEST_ALPHA)) }
+        let alpha = alpha.min(Vec2::splat(LARGEST_ALPHA));
+        Self::of(WardLobe { variant, alpha }, diffuse, specular)
     }
+}
 
+impl WhiteLobe for WardLobe {
     /// Mirrors `wo` at a half vector of density D cos θh.
     #[inline]
     fn draw(&self, wo: Vec3, u: Vec2) -> Vec3 {
@@ -51,14 +55,13 @@ impl Ward {
         2.0 * wo.dot(h) * h - wo
     }
 
-    /// The white lobe.
     #[inline]
-    fn lobe(&self, wo: Vec3, wi: Vec3) -> WhiteLobe {
-        let Some(h) = (wo + wi).try_normalize() else { return WhiteLobe { pdf: 0.0, weight: 0.0 } };
+    fn at(&self, wo: Vec3, wi: Vec3) -> White {
+        let Some(h) = (wo + wi).try_normalize() else { return White { pdf: 0.0, weight: 0.0 } };
         let (z2, cos_h) = (h.z * h.z, wo.dot(h).max(SMALLEST_COSINE));
         let tail = (-(Vec2::new(h.x, h.y) / self.alpha).length_squared() / z2).exp();
         if tail == 0.0 {
-            return WhiteLobe { pdf: 0.0, weight: 0.0 }; // else 0/0 at the horizon
+            return White { pdf: 0.0, weight: 0.0 }; // else 0/0 at the horizon
         }
         let pdf = tail / (4.0 * PI * self.alpha.x * self.alpha.y * cos_h * h.z * z2);
         let cos_o = wo.z.max(SMALLEST_COSINE);
@@ -67,45 +70,13 @@ impl Ward {
             WardVariant::WardDuer => cos_h * h.z * z2 / cos_o,
             WardVariant::Balanced => wi.z / (cos_h * h.z),
         };
-        WhiteLobe { pdf, weight }
-    }
-
-    /// Chooses a lobe by its colour.
-    #[inline]
-    pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
-        if wo.z.is_nan() || wo.z <= 0.0 {
-            return None;
-        }
-        self.colors.sample(u_lobe, u, |u| self.draw(wo, u), |wi| self.eval(wo, wi))
-    }
-
-    /// Value and density of both lobes.
-    #[inline]
-    pub fn eval(&self, wo: Vec3, wi: Vec3) -> BsdfEval {
-        if !(wo.z > 0.0 && wi.z > 0.0) {
-            return BsdfEval::ZERO;
-        }
-        self.colors.eval(wi, self.lobe(wo, wi))
-    }
-
-    /// For the feature layers.
-    pub fn features(&self, wo: Vec3) -> BsdfFeatures {
-        self.colors.features::<55, 34>(self.alpha(), |u| {
-            let wi = self.draw(wo, u);
-            if wi.z > 0.0 { self.lobe(wo, wi).weight } else { 0.0 }
-        })
+        White { pdf, weight }
     }
 
     /// The larger width.
     #[inline]
-    pub fn alpha(&self) -> f32 {
+    fn alpha(&self) -> f32 {
         self.alpha.max_element()
-    }
-
-    /// Whether there is a diffuse part.
-    #[inline]
-    pub fn has_base(&self) -> bool {
-        self.colors.has_base()
     }
 }
 

@@ -1,9 +1,10 @@
 //! Nested materials become lists: what is seen from each side, and what lets light straight through.
 
-use limpid_scenes::{MaterialId, MaterialKind, NormalMap, Scalar, Scene};
+use limpid_scenes::{Coat, Material, MaterialId, MaterialKind, NormalMap, Scalar, Scene};
 
+use super::coat::CoatModel;
 use super::{Coatings, Model, error, prepare};
-use crate::bsdf::MOST_LOBES;
+use crate::bsdf::{Layer, MOST_COATS, MOST_LOBES};
 use crate::prepare::PrepareError;
 
 /// A material as one of its sides shows it.
@@ -11,6 +12,8 @@ use crate::prepare::PrepareError;
 pub struct Side {
     /// What scatters.
     pub pieces: Vec<Piece>,
+    /// What pieces lie under.
+    pub coats: Vec<CoatModel>,
     /// What lets light straight through.
     pub holes: Vec<Share>,
 }
@@ -23,6 +26,7 @@ pub struct Piece {
     pub before: bool,
     pub map: Option<Map>,
     pub after: bool,
+    pub layer: Layer,
     pub model: Model,
 }
 
@@ -56,6 +60,7 @@ struct Context {
     before: bool,
     map: Option<Map>,
     after: bool,
+    layer: Layer,
     /// Seen from behind, in the frame that is innermost so far.
     behind: bool,
 }
@@ -126,6 +131,7 @@ impl Flatten<'_> {
                 let map = Some(Map { map: *map, flip_invalid: *flip_invalid, shadowing: *shadowing });
                 self.add(*inner, Context { map, ..cx }, side)
             }
+            MaterialKind::Coated { coat, inner } => self.coated(material, coat, *inner, cx, side),
             MaterialKind::Null => self.hole(cx.share, side),
             _ => {
                 // A one-sided model is black from behind. Counted from the front, so that no nesting is endless.
@@ -133,11 +139,43 @@ impl Flatten<'_> {
                 if cx.behind && !material.kind.transmits() {
                     return Ok(());
                 }
-                let Context { share, before, map, after, .. } = cx;
-                side.pieces.push(Piece { share, before, map, after, model });
+                let Context { share, before, map, after, layer, .. } = cx;
+                side.pieces.push(Piece { share, before, map, after, layer, model });
                 self.check(side)
             }
         }
+    }
+
+    /// The coat's own reflection, which both sides show, and what lies below.
+    fn coated(
+        &mut self,
+        material: &Material,
+        coat: &Coat,
+        inner: MaterialId,
+        cx: Context,
+        side: &mut Side,
+    ) -> Result<(), PrepareError> {
+        let name = &self.scene.materials[inner.0 as usize].name;
+        if cx.layer != Layer::Bare {
+            return Err(error(material, "a coat inside another".into(), "keep one of them"));
+        }
+        if self.scene.any_material(inner, MaterialKind::lets_through) {
+            let problem = format!("its coat covers \"{name}\", which lets light through");
+            return Err(error(material, problem, "use the inner bsdf without a coat"));
+        }
+        let index = side.coats.len() as u8;
+        let (coat, model) = CoatModel::prepare(material, coat, cx.map.is_some(), self.coatings)?;
+        side.coats.push(coat);
+        // Seen from behind, the innermost frame is turned over.
+        let (before, after) = if cx.map.is_some() {
+            (cx.before, cx.after || cx.behind)
+        } else {
+            (cx.before || cx.behind, cx.after)
+        };
+        let (share, map, layer) = (cx.share.clone(), cx.map, Layer::Top(index));
+        side.pieces.push(Piece { share, before, map, after, layer, model });
+        self.check(side)?;
+        self.add(inner, Context { layer: Layer::Under(index), ..cx }, side)
     }
 
     fn hole(&mut self, share: Share, side: &mut Side) -> Result<(), PrepareError> {
@@ -146,13 +184,13 @@ impl Flatten<'_> {
     }
 
     fn check(&self, side: &Side) -> Result<(), PrepareError> {
+        let outer = &self.scene.materials[self.outer.0 as usize];
+        if side.coats.len() > MOST_COATS {
+            return Err(error(outer, format!("made of more than {MOST_COATS} coats"), "blend fewer"));
+        }
         if side.pieces.len() <= MOST_LOBES && side.holes.len() <= MOST_LOBES {
             return Ok(());
         }
-        Err(error(
-            &self.scene.materials[self.outer.0 as usize],
-            format!("made of more than {MOST_LOBES} bsdfs"),
-            "blend fewer",
-        ))
+        Err(error(outer, format!("made of more than {MOST_LOBES} bsdfs"), "blend fewer"))
     }
 }

@@ -57,8 +57,8 @@ fn each_side_of_a_two_sided_material_is_lit_from_its_own_side() {
     let albedo = |id, behind| {
         let mut lobes = Lobes::default();
         let no_map = |_: &Map, _| unreachable!();
-        materials.add_lobes(seen(id, behind), 0.0, &textures, no_map, &mut lobes);
         let wo = if behind { Vec3::NEG_Z } else { Vec3::Z };
+        materials.add_lobes(seen(id, behind), wo, 0.0, &textures, no_map, &mut lobes);
         (lobes.features(wo).albedo.x, lobes.normal())
     };
     assert_eq!(albedo(2, false), (0.2, Vec3::Z));

@@ -186,7 +186,7 @@ impl Scattering {
             let hit = Perturbed { uv: surface.into(), wo, ng: frame.to_local(surface.ng), dp_duv };
             hit.by(map, over, &scene.textures)
         };
-        scene.materials.add_lobes(at, hole, &scene.textures, perturbed, lobes);
+        scene.materials.add_lobes(at, wo, hole, &scene.textures, perturbed, lobes);
     }
 }
 

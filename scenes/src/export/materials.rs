@@ -128,6 +128,9 @@ impl Writer<'_> {
             MaterialKind::Phong { .. } | MaterialKind::Ward { .. } => {
                 Err(no_counterpart(material, "make it roughplastic"))
             }
+            MaterialKind::Coated { .. } => {
+                Err(no_counterpart(material, "use the bsdf inside, or make it principled with a clearcoat"))
+            }
             MaterialKind::Principled(p) => self.principled(p),
             MaterialKind::PrincipledThin(p) => self.principled_thin(p),
             MaterialKind::Gltf(p) => self.gltf(p),
@@ -252,6 +255,8 @@ fn plugin(kind: &MaterialKind) -> &'static str {
         MaterialKind::RoughDiffuse { .. } => "roughdiffuse",
         MaterialKind::Phong { .. } => "phong",
         MaterialKind::Ward { .. } => "ward",
+        MaterialKind::Coated { coat, .. } if coat.facets.is_some() => "roughcoating",
+        MaterialKind::Coated { .. } => "coating",
         MaterialKind::Principled(_) => "principled",
         MaterialKind::PrincipledThin(_) => "principledthin",
         MaterialKind::Gltf(p) if p.thin && p.transmits() => "principledthin",

@@ -4,7 +4,7 @@ use super::Reader;
 use super::document::ElementId;
 use super::nesting::NESTING;
 use super::object::Object;
-use super::survey::{BSDFS, NAMED_IORS, Standing};
+use super::survey::{BSDFS, NAMED_IORS};
 use super::value::shorten;
 use crate::nearest::suggest;
 use crate::spectrum::{self, Quantity};
@@ -15,9 +15,6 @@ use crate::{
 
 const WHITE: Color = Color::Constant([1.0; 3]);
 const GREY: Color = Color::Constant([0.5; 3]);
-
-/// Where the colour stands that a diffuse stand-in takes over.
-const BASE_COLORS: [&str; 3] = ["reflectance", "diffuse_reflectance", "base_color"];
 
 impl Reader<'_> {
     /// A material, read once however often it is referred to.
@@ -33,17 +30,16 @@ impl Reader<'_> {
     fn new_material(&mut self, id: ElementId) -> Result<MaterialId, SceneError> {
         let object = Object::new(self.document, id);
         let kind = object.kind()?;
-        let parameters = match BSDFS.standing(kind, object.element)? {
-            Standing::Later => match self.stand_in(&object, kind)? {
-                Ok(inner) => return Ok(inner),
-                Err(diffuse) => diffuse,
-            },
-            Standing::Now if kind == "twosided" => match self.two_sided(&object)? {
-                Ok(inner) => return Ok(inner),
-                Err(sides) => sides,
-            },
-            Standing::Now if NESTING.contains(&kind) => self.nesting(&object, kind)?,
-            Standing::Now => self.model(&object, kind)?,
+        BSDFS.standing(kind, object.element)?; // none is for later
+        let parameters = match kind {
+            "twosided" => self.two_sided(&object)?,
+            "coating" | "roughcoating" => self.coated(&object, kind)?,
+            _ if NESTING.contains(&kind) => Err(self.nesting(&object, kind)?),
+            _ => Err(self.model(&object, kind)?),
+        };
+        let parameters = match parameters {
+            Ok(inner) => return Ok(inner), // which stands in
+            Err(parameters) => parameters,
         };
         let name = self.name(&object, kind, self.scene.materials.len());
         let place = object.place();
@@ -66,25 +62,6 @@ impl Reader<'_> {
         let material = self.add_material(name.into(), MaterialKind::Diffuse { reflectance }, place.clone());
         self.default_materials[usize::from(emits)] = Some(material);
         material
-    }
-
-    /// What takes the place of a BSDF that is not read yet: the one inside it, or else a diffuse one of its colour.
-    fn stand_in(
-        &mut self,
-        object: &Object<'_>,
-        kind: &str,
-    ) -> Result<Result<MaterialId, MaterialKind>, SceneError> {
-        if let Some(&(inner, _)) = object.nested("bsdf")?.first() {
-            self.warn(object.id, format!("{kind} is not read yet; the bsdf inside stands in"));
-            return self.material(inner).map(Ok);
-        }
-        let mut reflectance = GREY;
-        for key in BASE_COLORS {
-            reflectance = self.color(object, key, Quantity::Reflectance, reflectance)?;
-        }
-        object.all_without_effect();
-        self.warn(object.id, format!("{kind} is not read yet; a diffuse bsdf stands in"));
-        Ok(Err(MaterialKind::Diffuse { reflectance }))
     }
 
     fn two_sided(&mut self, object: &Object<'_>) -> Result<Result<MaterialId, MaterialKind>, SceneError> {
@@ -262,7 +239,7 @@ impl Reader<'_> {
         self.scalar(object, key, 0.0, WIDTH, is_width)
     }
 
-    fn distribution(&mut self, object: &Object<'_>) -> Result<Distribution, SceneError> {
+    pub(super) fn distribution(&mut self, object: &Object<'_>) -> Result<Distribution, SceneError> {
         let words = [
             ("beckmann", Some(Distribution::Beckmann)),
             ("ggx", Some(Distribution::Ggx)),
@@ -327,12 +304,12 @@ fn is_width(alpha: f64) -> bool {
     (0.0..=10.0).contains(&alpha)
 }
 
-fn width(object: &Object<'_>, key: &'static str) -> Result<f32, SceneError> {
+pub(super) fn width(object: &Object<'_>, key: &'static str) -> Result<f32, SceneError> {
     Ok(object.float_where(key, 0.1, WIDTH, is_width)? as f32)
 }
 
 /// An index of refraction: a number, or the name of a substance.
-fn ior(object: &Object<'_>, key: &'static str, default: f64) -> Result<f32, SceneError> {
+pub(super) fn ior(object: &Object<'_>, key: &'static str, default: f64) -> Result<f32, SceneError> {
     let value = match object.find(key) {
         Some((_, parameter)) if parameter.tag == "string" => {
             let name = parameter.attribute("value").unwrap_or_default().trim();

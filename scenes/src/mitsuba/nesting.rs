@@ -70,7 +70,7 @@ impl Reader<'_> {
         }
     }
 
-    fn only_bsdf(&mut self, object: &Object<'_>) -> Result<MaterialId, SceneError> {
+    pub(super) fn only_bsdf(&mut self, object: &Object<'_>) -> Result<MaterialId, SceneError> {
         match object.nested("bsdf")?[..] {
             [(inner, _)] => self.material(inner),
             ref found => {

@@ -69,8 +69,10 @@ pub(super) const BSDFS: Class = Class {
         "mixturebsdf",
         "normalmap",
         "bumpmap",
+        "coating",
+        "roughcoating",
     ],
-    later: &["coating", "roughcoating"],
+    later: &[],
     out: &[
         ("pplastic", POLARISED),
         ("polarizer", POLARISED),

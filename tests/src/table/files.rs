@@ -46,8 +46,41 @@ pub fn write_files(folder: &Path) -> io::Result<()> {
         32,
     )?;
     fs::write(folder.join("ball.ply"), ball(24, 12, true))?;
+    fs::write(folder.join("painted.ply"), PAINTED)?;
     fs::write(folder.join("lamp.ply"), ball(6, 4, false))
 }
+
+/// An octahedron whose vertices and faces have colours.
+const PAINTED: &str = "ply
+format ascii 1.0
+element vertex 6
+property float x
+property float y
+property float z
+property float r
+property float g
+property float b
+element face 8
+property list uchar int vertex_indices
+property float r
+property float g
+property float b
+end_header
+1 0 0 0.9 0.2 0.1
+-1 0 0 0.1 0.8 0.9
+0 1 0 0.2 0.9 0.1
+0 -1 0 0.8 0.1 0.9
+0 0 1 0.9 0.9 0.9
+0 0 -1 0.1 0.1 0.1
+3 0 2 4 0.8 0.1 0.1
+3 2 1 4 0.1 0.8 0.1
+3 1 3 4 0.1 0.1 0.8
+3 3 0 4 0.8 0.8 0.1
+3 2 0 5 0.1 0.8 0.8
+3 1 2 5 0.8 0.1 0.8
+3 3 1 5 0.5 0.5 0.5
+3 0 3 5 0.9 0.9 0.9
+";
 
 /// An ASCII PLY of a unit ball of few faces.
 fn ball(around: u32, down: u32, normals: bool) -> String {

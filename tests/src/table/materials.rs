@@ -127,7 +127,7 @@ pub const MATERIALS: &[Named] = &[
     (
         "blendbsdf, nested",
         false,
-        r#"<bsdf type="blendbsdf"><float name="weight" value="0.4"/><bsdf type="mask"><float name="opacity" value="0.5"/><bsdf type="diffuse"/></bsdf><bsdf type="twosided"><bsdf type="blendbsdf"><float name="weight" value="0.7"/><bsdf type="plastic"/><bsdf type="roughconductor"/></bsdf></bsdf></bsdf>"#,
+        r#"<bsdf type="blendbsdf"><float name="weight" value="0.4"/><bsdf type="mask"><float name="opacity" value="0.5"/><bsdf type="diffuse"/></bsdf><bsdf type="twosided"><bsdf type="blendbsdf"><float name="weight" value="0.7"/><bsdf type="roughplastic"/><bsdf type="roughconductor"/></bsdf></bsdf></bsdf>"#,
     ),
     (
         "normalmap",

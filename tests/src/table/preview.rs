@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::{MATERIALS, Row, write_files};
+use super::{Row, materials, write_files};
 
 /// A ball with a girdle of grey plastic on a checkered floor, under a lamp and the sky; the material stands at `{}`.
 const SCENE: &str = r#"<scene version="3.0.0">
@@ -28,7 +28,7 @@ const SCENE: &str = r#"<scene version="3.0.0">
 /// What the system says.
 pub fn write_previews(folder: &Path) -> io::Result<Vec<(Row, PathBuf)>> {
     write_files(folder)?;
-    let rows = MATERIALS.iter().enumerate().map(|(i, &(name, in_subset, material))| {
+    let rows = materials().enumerate().map(|(i, &(name, in_subset, material))| {
         let path = folder.join(format!("preview-{i:03}.xml"));
         let xml = SCENE.replace("{}", material);
         std::fs::write(&path, &xml)?;

@@ -46,4 +46,14 @@ pub const SHAPES: &[Named] = &[
         false,
         r#"<shape type="sphere"><float name="radius" value="0.1"/><point name="center" x="10" y="0" z="0"/><transform name="to_world"><translate x="-10"/><scale value="7"/><translate z="0.8"/></transform>{}</shape>"#,
     ),
+    (
+        "ply with colours of vertices",
+        false,
+        r#"<shape type="ply"><string name="filename" value="painted.ply"/><transform name="to_world"><scale value="0.7"/><rotate z="1" angle="25"/><translate z="0.8"/></transform><bsdf type="twosided"><bsdf type="diffuse"><texture name="reflectance" type="mesh_attribute"><string name="name" value="vertex_color"/></texture></bsdf></bsdf></shape>"#,
+    ),
+    (
+        "ply with colours of faces",
+        false,
+        r#"<shape type="ply"><string name="filename" value="painted.ply"/><transform name="to_world"><scale value="0.7"/><rotate z="1" angle="25"/><translate z="0.8"/></transform><bsdf type="twosided"><bsdf type="roughconductor"><float name="alpha" value="0.4"/><texture name="specular_reflectance" type="mesh_attribute"><string name="name" value="face_color"/></texture></bsdf></bsdf></shape>"#,
+    ),
 ];

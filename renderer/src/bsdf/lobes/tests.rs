@@ -30,7 +30,7 @@ const OVER: Turn = Turn { before: true, map: None, after: false };
 
 fn lobes(list: &[(f32, Turn, Bsdf<'static>)]) -> Lobes<'static> {
     let mut lobes = Lobes::default();
-    list.iter().for_each(|&(weight, turn, bsdf)| lobes.push(weight, turn, bsdf));
+    list.iter().for_each(|&(weight, turn, bsdf)| lobes.push(weight, turn, Layer::Bare, bsdf));
     lobes
 }
 
@@ -116,7 +116,7 @@ fn albedos_add_up_by_weight() {
 fn a_lobe_of_no_weight_is_left_out() {
     let mut lobes = lobes(&[(0.0, Turn::default(), diffuse(0.5))]);
     assert!(lobes.sample(Vec3::Z, 0.5, Vec2::splat(0.5)).is_none() && !lobes.has_non_delta());
-    lobes.push(1.0, Turn::default(), mirror());
+    lobes.push(1.0, Turn::default(), Layer::Bare, mirror());
     assert!(lobes.near_delta());
 }
 

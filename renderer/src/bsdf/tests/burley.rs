@@ -43,8 +43,6 @@ fn sheet(dials: PrincipledThinDials) -> Bsdf<'static> {
 
 /// In a name: the lobes are added, not layered, so that a little more may come back than went in.
 pub const SUM: &str = "sum";
-/// In a name: scatters on both sides.
-pub const BOTH: &str = "both sides";
 
 pub fn cases() -> Vec<Case> {
     let metal = PrincipledDials { metallic: 1.0, roughness: 0.6, ..PLAIN };
@@ -159,18 +157,6 @@ pub fn needles() -> Vec<Case> {
             sheet(PrincipledThinDials { spec_trans: 1.0, roughness: 0.001, ..SHEET }),
         ),
     ]
-}
-
-#[test]
-fn samples_from_behind_follow_their_density() {
-    for (name, bsdf) in cases().into_iter().filter(|(name, _)| name.contains(BOTH)) {
-        for cos in [-1.0, -0.6, -0.1] {
-            let wo = direction(cos);
-            println!("{name}, cos {cos}");
-            let draw = |lobe, u| bsdf.sample(wo, lobe, u).map(|s| s.wi);
-            assert_chi2(draw, |wi| bsdf.eval(wo, wi).pdf);
-        }
-    }
 }
 
 /// Mean of the weight, and mean of its square over the squared mean: 1 if drawn in proportion to what is scattered.

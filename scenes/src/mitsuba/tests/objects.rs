@@ -7,8 +7,9 @@ use glam::{DMat3, DVec3};
 
 use super::{loaded, scene, try_load};
 use crate::{
-    Aov, Color, Crop, Distribution, FovAxis, LightKind, LoadOptions, MaterialKind, PixelFilter, Projection,
-    Scalar, Scene, ShapeKind, TexelFilter, Texels, TextureKind, WardVariant, WrapMode, load,
+    Aov, Coat, Color, Crop, Distribution, FovAxis, LightKind, LoadOptions, MaterialId, MaterialKind,
+    PixelFilter, Projection, Scalar, Scene, ShapeKind, TexelFilter, Texels, TextureId, TextureKind,
+    WardVariant, WrapMode, load,
 };
 
 fn material(bsdf: &str) -> MaterialKind {
@@ -125,6 +126,34 @@ fn models_of_0_x_have_its_defaults() {
             specular_reflectance: dim,
         }
     );
+}
+
+#[test]
+fn coats_take_their_parameters() {
+    let scene = loaded(r#"<bsdf type="coating"><bsdf type="conductor"/></bsdf>"#);
+    let [MaterialKind::Conductor { .. }, MaterialKind::Coated { coat, inner: MaterialId(0) }] =
+        [&scene.materials[0].kind, &scene.materials[1].kind]
+    else {
+        panic!("{:?}", scene.materials)
+    };
+    assert_eq!(*coat, Coat::default());
+    let scene = loaded(
+        r#"<bsdf type="roughcoating"><float name="alpha" value="0.3"/><string name="distribution" value="ggx"/>
+        <string name="int_ior" value="water"/><float name="ext_ior" value="1"/><float name="thickness" value="2"/>
+        <rgb name="sigma_a" value="0.1 2 3"/><texture type="checkerboard" name="specular_reflectance"/>
+        <bsdf type="twosided"><bsdf type="diffuse"/></bsdf></bsdf>"#,
+    );
+    let expected = Coat {
+        facets: Some((Distribution::Ggx, 0.3)),
+        int_ior: 1.333,
+        ext_ior: 1.0,
+        thickness: 2.0,
+        sigma_a: Color::Constant([0.1, 2.0, 3.0]),
+        specular_reflectance: Color::Texture(TextureId(0)),
+    };
+    let MaterialKind::Coated { coat, .. } = scene.materials[2].kind else { panic!("{:?}", scene.materials) };
+    assert_eq!(coat, expected);
+    assert_eq!(scene.warnings.len(), 1, "{:?}", scene.warnings); // of the camera
 }
 
 #[test]
