@@ -54,6 +54,7 @@ mod textures;
 
 pub use as_mitsuba::as_mitsuba;
 pub use cameras::*;
+pub use daylight::{Daylight, SkyRadiance};
 pub use error::SceneError;
 pub use export::{ExportError, Exported, export_mitsuba};
 pub use gltf_material::GltfMaterial;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
-use crate::{Color, Image, Place, Rgb};
+use crate::{Color, Daylight, Image, Place, Rgb};
 
 /// A light that is not the surface of a shape.
 #[derive(Clone, Debug)]
@@ -62,14 +62,21 @@ pub enum LightKind {
         /// W·m⁻² per channel, on a surface across it.
         irradiance: Rgb,
     },
-    /// A round disk at infinity of the same radiance all over.
+    /// The sky of a clear day, without its sun: black below the horizon.
+    Sky {
+        /// Which day.
+        daylight: Daylight,
+        /// Factor on its radiance.
+        scale: f32,
+    },
+    /// The sun of a clear day: a round disk at infinity of the same radiance all over. What is below the horizon is cut off.
     Sun {
-        /// Towards its middle, unit, in world space.
-        direction: DVec3,
+        /// Which day.
+        daylight: Daylight,
         /// Half of the angle under which it is seen, in degrees, in (0, 90\].
         half_deg: f64,
-        /// W·sr⁻¹·m⁻² per channel.
-        radiance: Rgb,
+        /// Factor on its radiance.
+        scale: f32,
     },
     /// A picture thrown through a pinhole, as a perspective camera takes one: its upper left corner has +x, +y.
     Projector {
@@ -93,7 +100,7 @@ impl LightKind {
     /// Whether it surrounds the scene. A file may have one that does.
     pub fn is_background(&self) -> bool {
         match self {
-            Self::Constant { .. } | Self::EnvMap { .. } => true,
+            Self::Constant { .. } | Self::EnvMap { .. } | Self::Sky { .. } => true,
             Self::Sun { .. }
             | Self::Point { .. }
             | Self::Spot { .. }

@@ -37,7 +37,10 @@ impl Delta {
     pub fn new(kind: &LightKind, origin: DVec3) -> Option<Self> {
         let place = |world_from_light: &DMat4| Place::new(*world_from_light, origin);
         Some(match kind {
-            LightKind::Constant { .. } | LightKind::EnvMap { .. } | LightKind::Sun { .. } => return None,
+            LightKind::Constant { .. }
+            | LightKind::EnvMap { .. }
+            | LightKind::Sky { .. }
+            | LightKind::Sun { .. } => return None,
             LightKind::Point { position, intensity } => {
                 Self::Point(Point { position: *position - origin, intensity: (*intensity).into() })
             }
