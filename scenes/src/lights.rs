@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
-use crate::{Color, Daylight, Image, Place, Rgb};
+use crate::{Color, Daylight, IesProfile, Image, Place, Rgb};
 
 /// A light that is not the surface of a shape.
 #[derive(Clone, Debug)]
@@ -41,8 +41,8 @@ pub enum LightKind {
         /// W·sr⁻¹ per channel.
         intensity: Rgb,
     },
-    /// A point that shines into a cone around the +z of light space: fully within the beam, then less in proportion to the
-    /// angle, to nothing at the cutoff.
+    /// A point that shines into a cone around the +z of light space: fully within the beam, then less, to nothing at the
+    /// cutoff.
     Spot {
         /// The light stands at its origin.
         world_from_light: DMat4,
@@ -52,8 +52,19 @@ pub enum LightKind {
         cutoff_deg: f64,
         /// Half angle of the beam, in degrees, at most the cutoff.
         beam_deg: f64,
+        /// How it gets less.
+        falloff: SpotFalloff,
         /// A factor: a picture over the square around the cone, u along +x, v along +y.
         texture: Color,
+    },
+    /// A point that shines as a photometric file says.
+    Ies {
+        /// The light stands at its origin; vertical angles are from +z, horizontal ones from +x towards +y.
+        world_from_light: DMat4,
+        /// Factor on the profile, whose candelas count as W·sr⁻¹.
+        intensity: Rgb,
+        /// What goes where.
+        profile: Arc<IesProfile>,
     },
     /// Parallel light from infinity.
     Directional {
@@ -91,6 +102,47 @@ pub enum LightKind {
     },
 }
 
+/// How a spot's intensity goes from 1 at the beam's angle to 0 at the cutoff's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpotFalloff {
+    /// In proportion to the angle, as in Mitsuba 3.
+    Angle,
+    /// With the square of a share that is linear in the cosine, as glTF's KHR_lights_punctual has it.
+    CosineSquared,
+}
+
+impl SpotFalloff {
+    /// The factor at the angle `theta` from the axis; all in radians. NaN gives 0.
+    #[inline]
+    pub fn at(self, theta: f64, beam: f64, cutoff: f64) -> f64 {
+        match self {
+            Self::Angle if theta <= beam => 1.0,
+            Self::Angle if theta < cutoff => (cutoff - theta) / (cutoff - beam),
+            Self::Angle => 0.0,
+            Self::CosineSquared => {
+                // the extension's own guard against a division by 0
+                let width = (beam.cos() - cutoff.cos()).max(1e-3);
+                ((theta.cos() - cutoff.cos()) / width).max(0.0).min(1.0).powi(2)
+            }
+        }
+    }
+
+    /// Integral of the factor over all directions, in steradians.
+    pub fn integral(self, beam: f64, cutoff: f64) -> f64 {
+        let mean = match self {
+            Self::Angle if cutoff > beam => 1.0 - (cutoff.sin() - beam.sin()) / (cutoff - beam),
+            Self::Angle => 1.0 - cutoff.cos(),
+            Self::CosineSquared => {
+                let width = (beam.cos() - cutoff.cos()).max(1e-3);
+                let whole = (1.0 - cutoff.cos() - width).max(0.0);
+                let edge = 1.0 - cutoff.cos() - whole;
+                whole + edge.powi(3) / (3.0 * width * width)
+            }
+        };
+        2.0 * std::f64::consts::PI * mean
+    }
+}
+
 impl LightKind {
     /// Whether rays that leave the scene find it.
     pub fn is_at_infinity(&self) -> bool {
@@ -104,8 +156,43 @@ impl LightKind {
             Self::Sun { .. }
             | Self::Point { .. }
             | Self::Spot { .. }
+            | Self::Ies { .. }
             | Self::Directional { .. }
             | Self::Projector { .. } => false,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Both falloffs, integrated numerically over θ.
+    #[test]
+    fn falloffs_have_their_integral() {
+        for falloff in [SpotFalloff::Angle, SpotFalloff::CosineSquared] {
+            for (beam, cutoff) in [(0.0, 0.5), (0.25, 0.5), (0.5, 0.5), (0.499, 0.5), (0.3, 1.5), (0.0, 0.02)]
+            {
+                let n = 20_000;
+                let step = cutoff / f64::from(n);
+                let at = |i: i32| (f64::from(i) + 0.5) * step;
+                let sum: f64 = (0..n).map(|i| falloff.at(at(i), beam, cutoff) * at(i).sin()).sum();
+                let (sum, truth) = (2.0 * std::f64::consts::PI * sum * step, falloff.integral(beam, cutoff));
+                assert!((sum / truth - 1.0).abs() < 1e-3, "{falloff:?} {beam} {cutoff}: {sum} {truth}");
+            }
+        }
+    }
+
+    #[test]
+    fn gltf_spots_fade_as_the_extension_says() {
+        let (inner, outer) = (0.25f64, 0.5f64);
+        let scale = 1.0 / (inner.cos() - outer.cos());
+        for theta in [0.0, 0.2, 0.3, 0.45, 0.5, 0.6, 3.0] {
+            let share = (f64::cos(theta) * scale - outer.cos() * scale).clamp(0.0, 1.0);
+            let got = SpotFalloff::CosineSquared.at(theta, inner, outer);
+            assert!((got - share * share).abs() < 1e-12, "{theta}: {got}");
+        }
+        assert_eq!(SpotFalloff::CosineSquared.at(f64::NAN, inner, outer), 0.0);
+        assert_eq!(SpotFalloff::Angle.at(f64::NAN, inner, outer), 0.0);
     }
 }

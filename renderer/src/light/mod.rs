@@ -11,6 +11,7 @@ mod directional;
 mod disk;
 mod environment;
 mod gather;
+mod ies;
 mod point;
 mod projector;
 mod rectangle;
@@ -284,6 +285,7 @@ impl Infinite {
             }
             LightKind::Point { .. }
             | LightKind::Spot { .. }
+            | LightKind::Ies { .. }
             | LightKind::Directional { .. }
             | LightKind::Projector { .. } => None,
         }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DMat3, DMat4, DVec3};
 
 use super::{ExportError, Writer};
-use crate::{Color, Daylight, Light, LightKind};
+use crate::{Color, Daylight, Light, LightKind, SpotFalloff};
 
 impl Writer<'_> {
     pub(super) fn light(&mut self, light: &Light) -> Result<(), ExportError> {
@@ -27,7 +27,7 @@ impl Writer<'_> {
                 self.xml.point("position", *position);
                 self.xml.rgb("intensity", *intensity);
             }
-            LightKind::Spot { world_from_light, intensity, cutoff_deg, beam_deg, texture } => {
+            LightKind::Spot { world_from_light, intensity, cutoff_deg, beam_deg, falloff, texture } => {
                 self.xml.open("emitter", &[("type", "spot"), ("id", &id)]);
                 // Mitsuba takes a picture there, and no colour.
                 let factor = if let Color::Constant(color) = texture { *color } else { [1.0; 3] };
@@ -36,8 +36,28 @@ impl Writer<'_> {
                     self.texture("texture", *texture)?;
                 }
                 self.xml.float("cutoff_angle", *cutoff_deg);
-                self.xml.float("beam_width", *beam_deg);
+                let beam_deg = match falloff {
+                    SpotFalloff::Angle => *beam_deg,
+                    SpotFalloff::CosineSquared => {
+                        self.notes.push(format!(
+                            "emitter \"{}\": Mitsuba's spot fades in proportion to the angle; one of the same power stands in",
+                            light.name
+                        ));
+                        linear_beam(*beam_deg, *cutoff_deg)
+                    }
+                };
+                self.xml.float("beam_width", beam_deg);
                 self.xml.transform("to_world", *world_from_light);
+            }
+            LightKind::Ies { world_from_light, intensity, profile } => {
+                self.notes.push(format!(
+                    "emitter \"{}\": Mitsuba has no photometric profiles; a point that shines alike into all directions, with \
+                     the same power, stands in",
+                    light.name
+                ));
+                self.xml.open("emitter", &[("type", "point"), ("id", &id)]);
+                self.xml.point("position", world_from_light.w_axis.truncate());
+                self.xml.rgb("intensity", intensity.map(|i| (f64::from(i) * profile.mean()) as f32));
             }
             LightKind::Directional { direction, irradiance } => {
                 self.xml.open("emitter", &[("type", "directional"), ("id", &id)]);
@@ -117,6 +137,19 @@ impl Writer<'_> {
         self.xml.vector("direction", -towards(day));
         self.xml.rgb("irradiance", day.sun(half_deg).map(|l| (f64::from(l * scale) * projected) as f32));
     }
+}
+
+/// The beam with which a spot that fades in proportion to the angle has the power of one of glTF, or as nearly as may be.
+fn linear_beam(beam_deg: f64, cutoff_deg: f64) -> f64 {
+    let (beam, cutoff) = (beam_deg.to_radians(), cutoff_deg.to_radians());
+    let power = SpotFalloff::CosineSquared.integral(beam, cutoff);
+    let (mut low, mut high) = (0.0, cutoff);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        let is_less = SpotFalloff::Angle.integral(middle, cutoff) < power;
+        if is_less { low = middle } else { high = middle }
+    }
+    low.to_degrees()
 }
 
 /// The sun's direction in world space.
