@@ -143,6 +143,20 @@ impl SpotFalloff {
     }
 }
 
+/// Half angle in degrees of the beam with which a spot of [`SpotFalloff::Angle`] has the power of one of
+/// [`SpotFalloff::CosineSquared`], or as nearly as may be: what stands for it where nothing else is known.
+pub fn linear_beam_deg(beam_deg: f64, cutoff_deg: f64) -> f64 {
+    let (beam, cutoff) = (beam_deg.to_radians(), cutoff_deg.to_radians());
+    let power = SpotFalloff::CosineSquared.integral(beam, cutoff);
+    let (mut low, mut high) = (0.0, cutoff);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        let is_less = SpotFalloff::Angle.integral(middle, cutoff) < power;
+        *(if is_less { &mut low } else { &mut high }) = middle;
+    }
+    low.to_degrees()
+}
+
 impl LightKind {
     /// Whether rays that leave the scene find it.
     pub fn is_at_infinity(&self) -> bool {
@@ -180,6 +194,25 @@ mod tests {
                 let (sum, truth) = (2.0 * std::f64::consts::PI * sum * step, falloff.integral(beam, cutoff));
                 assert!((sum / truth - 1.0).abs() < 1e-3, "{falloff:?} {beam} {cutoff}: {sum} {truth}");
             }
+        }
+    }
+
+    /// Prints the table in `docs/mitsuba.md`: `cargo test -p limpid-scenes linear_spots -- --nocapture`.
+    #[test]
+    fn linear_spots_stand_for_those_of_gltf() {
+        for (inner_deg, outer_deg) in [(0.0, 45.0), (15.0, 30.0), (25.0, 30.0), (0.0, 90.0)] {
+            let beam_deg = linear_beam_deg(inner_deg, outer_deg);
+            let [inner, outer, beam] = [inner_deg, outer_deg, beam_deg].map(f64::to_radians);
+            let [linear, squared] = [SpotFalloff::Angle, SpotFalloff::CosineSquared];
+            let power = linear.integral(beam, outer) / squared.integral(inner, outer);
+            let off = |i: i32| {
+                let theta = outer * f64::from(i) / 1000.0;
+                linear.at(theta, beam, outer) - squared.at(theta, inner, outer)
+            };
+            let largest = (0..1000).map(off).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+            println!("| {inner_deg} | {outer_deg} | {beam_deg:.2} | {power:.3} | {largest:+.3} |");
+            assert!((power - 1.0).abs() < 0.1 && largest.abs() < 0.25, "{inner_deg} {outer_deg}");
+            assert!(beam_deg == 0.0 || outer_deg == 90.0 || (power - 1.0).abs() < 0.02, "{beam_deg} {power}");
         }
     }
 

@@ -26,8 +26,13 @@ def radiance(turbidity, elevation):
     return [v * CONE for v in sun.eval(si)]
 
 
+def digits(value):
+    text = f"{value:.5g}"
+    return text if "." in text or "e" in text else text + ".0"
+
+
 def row(turbidity):
-    cells = ["[" + ", ".join(f"{v:.1f}" for v in radiance(turbidity, e)) + "]" for e in ELEVATIONS]
+    cells = ["[" + ", ".join(map(digits, radiance(turbidity, e))) + "]" for e in ELEVATIONS]
     return "    [\n" + "".join(f"        {', '.join(cells[i:i + 5])},\n" for i in range(0, 30, 5)) + "    ],\n"
 
 

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DMat3, DMat4, DVec3};
 
 use super::{ExportError, Writer};
-use crate::{Color, Daylight, Light, LightKind, SpotFalloff};
+use crate::{Color, Daylight, Light, LightKind, SpotFalloff, linear_beam_deg};
 
 impl Writer<'_> {
     pub(super) fn light(&mut self, light: &Light) -> Result<(), ExportError> {
@@ -43,7 +43,7 @@ impl Writer<'_> {
                             "emitter \"{}\": Mitsuba's spot fades in proportion to the angle; one of the same power stands in",
                             light.name
                         ));
-                        linear_beam(*beam_deg, *cutoff_deg)
+                        linear_beam_deg(*beam_deg, *cutoff_deg)
                     }
                 };
                 self.xml.float("beam_width", beam_deg);
@@ -137,19 +137,6 @@ impl Writer<'_> {
         self.xml.vector("direction", -towards(day));
         self.xml.rgb("irradiance", day.sun(half_deg).map(|l| (f64::from(l * scale) * projected) as f32));
     }
-}
-
-/// The beam with which a spot that fades in proportion to the angle has the power of one of glTF, or as nearly as may be.
-fn linear_beam(beam_deg: f64, cutoff_deg: f64) -> f64 {
-    let (beam, cutoff) = (beam_deg.to_radians(), cutoff_deg.to_radians());
-    let power = SpotFalloff::CosineSquared.integral(beam, cutoff);
-    let (mut low, mut high) = (0.0, cutoff);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        let is_less = SpotFalloff::Angle.integral(middle, cutoff) < power;
-        if is_less { low = middle } else { high = middle }
-    }
-    low.to_degrees()
 }
 
 /// The sun's direction in world space.
