@@ -62,7 +62,7 @@ pub const LIGHTS: &[Named] = &[
     (
         "area, bitmap on a cylinder",
         false,
-        r#"<shape type="cylinder"><point name="p0" x="-2" y="-1.5" z="3.2"/><point name="p1" x="-0.5" y="-1" z="3.5"/><float name="radius" value="0.3"/><emitter type="area"><texture name="radiance" type="bitmap"><string name="filename" value="glow.exr"/></texture></emitter></shape>"#,
+        r#"<shape type="cylinder"><point name="p0" x="-2" y="-1.5" z="3"/><point name="p1" x="-1" y="-1.5" z="4"/><float name="radius" value="0.3"/><emitter type="area"><texture name="radiance" type="bitmap"><string name="filename" value="glow.exr"/></texture></emitter></shape>"#,
     ),
     (
         "point",

@@ -97,6 +97,35 @@ fn lights_that_make_no_sense_are_errors_with_a_cure() {
     }
 }
 
+#[test]
+fn photometric_files_become_lights() {
+    let lamp = b"TILT=NONE\n1 100 2 2 1 1 2 0 0 0\n1 1 9\n0 90\n0\n3 1\n";
+    // as a file of 0.x has it
+    let emitter = |key: &str| {
+        format!(
+            r#"<emitter type="ies"><string name="{key}" value="lamp.ies"/><rgb name="intensity" value="1 2 3"/>
+            <transform name="to_world"><translate x="5"/></transform></emitter>"#
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let load = |key: &str| {
+        let text = format!(r#"<scene version="0.6.0">{}</scene>"#, emitter(key));
+        crate::load_str(&text, folder.path(), &crate::LoadOptions::default())
+    };
+    std::fs::write(folder.path().join("lamp.ies"), lamp).unwrap();
+    for key in ["path", "filename"] {
+        let scene = load(key).unwrap();
+        assert!(scene.warnings.iter().all(|w| w.element == "scene"), "{:?}", scene.warnings);
+        let LightKind::Ies { world_from_light, intensity, profile } = &scene.lights[0].kind else { panic!() };
+        assert_eq!((world_from_light.w_axis.x, intensity), (5.0, &[1.0, 2.0, 3.0]));
+        assert_eq!([0.0, 45.0, 91.0].map(|v| profile.at(v, 77.0)), [6.0, 4.0, 0.0]);
+    }
+    std::fs::write(folder.path().join("lamp.ies"), lamp.strip_suffix(b"1\n").unwrap()).unwrap();
+    let error = load("path").unwrap_err().to_string();
+    assert!(error.contains("lamp.ies:3:1: emitter \"ies\": 2 × 1 values"), "{error}");
+    assert!(try_load(r#"<emitter type="ies"/>"#).unwrap_err().to_string().contains("name an IES file"));
+}
+
 /// The lights of one emitter in a file of this version, and its warnings.
 fn daylight(version: &str, kind: &str, inside: &str) -> (Vec<crate::Light>, Vec<String>) {
     let text = format!(r#"<scene version="{version}"><emitter type="{kind}">{inside}</emitter></scene>"#);
