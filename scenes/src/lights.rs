@@ -122,7 +122,8 @@ impl SpotFalloff {
             Self::CosineSquared => {
                 // the extension's own guard against a division by 0
                 let width = (beam.cos() - cutoff.cos()).max(1e-3);
-                ((theta.cos() - cutoff.cos()) / width).max(0.0).min(1.0).powi(2)
+                let share = (theta.cos() - cutoff.cos()) / width;
+                if share > 0.0 { share.min(1.0).powi(2) } else { 0.0 }
             }
         }
     }
