@@ -1,11 +1,11 @@
 //! What limpid does otherwise than Mitsuba 3 on purpose, undone.
 //!
 //! What differs by choice has its switch here, so that a comparison sees mistakes and not decisions: clip planes, the
-//! steps of pixel filters, and checkerboards that are read as numbers.
+//! steps of pixel filters, checkerboards that are read as numbers, and how spots of glTF fade.
 
 use std::collections::HashMap;
 
-use crate::{Scalar, Scene, TextureId, TextureKind};
+use crate::{LightKind, Scalar, Scene, SpotFalloff, TextureId, TextureKind, linear_beam_deg};
 
 /// Where Mitsuba's cameras begin and end to see, in scene units, unless the file says otherwise.
 const CLIP: [f64; 2] = [1e-2, 1e4];
@@ -20,6 +20,14 @@ pub fn as_mitsuba(scene: &mut Scene) {
         camera.film.filter_steps = Some(FILTER_STEPS);
     }
     swap_checkerboards(scene);
+    for light in &mut scene.lights {
+        if let LightKind::Spot { cutoff_deg, beam_deg, falloff, .. } = &mut light.kind
+            && *falloff == SpotFalloff::CosineSquared
+        {
+            *falloff = SpotFalloff::Angle;
+            *beam_deg = linear_beam_deg(*beam_deg, *cutoff_deg);
+        }
+    }
 }
 
 /// Mitsuba 3.9 swaps the two colours of a checkerboard where it is read as a number.

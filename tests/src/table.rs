@@ -22,7 +22,7 @@ pub use preview::write_previews;
 
 use cameras::CAMERAS;
 use glass::GLASS;
-use lights::{LAMP, LIGHTS};
+use lights::{LAMP, LAMPS_IN_VIEW, LIGHTS};
 use materials::MATERIALS;
 use nested::{NESTED, SHEETS};
 use principled::PRINCIPLED;
@@ -42,8 +42,9 @@ pub struct Row {
 /// A material and its `<bsdf>`; those marked are in the subset.
 type Named = (&'static str, bool, &'static str);
 
-const VIEW: &str = r#"<transform name="to_world"><lookat origin="0.5 -5 3" target="0.3 0 0.6" up="0 0 1"/></transform>
-<film type="hdrfilm"><integer name="width" value="64"/><integer name="height" value="48"/><rfilter type="box"/></film>
+const PLACE: &str =
+    r#"<transform name="to_world"><lookat origin="0.5 -5 3" target="0.3 0 0.6" up="0 0 1"/></transform>"#;
+const FILM: &str = r#"<film type="hdrfilm"><integer name="width" value="64"/><integer name="height" value="48"/><rfilter type="box"/></film>
 <sampler type="independent"><integer name="sample_count" value="256"/></sampler>"#;
 
 const PINHOLE: &str = r#"<sensor type="perspective"><float name="fov" value="40"/>{}</sensor>"#;
@@ -52,7 +53,7 @@ const TEXTURED: &str = r#"<bsdf type="twosided"><bsdf type="diffuse"><texture na
 
 /// The scene of a row.
 fn scene(camera: &str, shape: &str, material: &str, light: &str) -> String {
-    let camera = camera.replace("{}", VIEW);
+    let camera = camera.replace("{}", &format!("{PLACE}\n{FILM}")).replace("{film}", FILM);
     let shape = shape.replace("{}", material);
     format!(
         r#"<scene version="3.0.0">
@@ -94,6 +95,11 @@ pub fn rows() -> Vec<Row> {
     for &(name, in_subset, camera) in CAMERAS {
         add(format!("camera: {name}"), in_subset, scene(camera, BALL, TEXTURED, LAMP));
     }
+    let visible = scene(PINHOLE, BALL, TEXTURED, LAMPS_IN_VIEW);
+    let hidden =
+        visible.replace(r#"type="path">"#, r#"type="path"><boolean name="hide_emitters" value="true"/>"#);
+    add("light: lamps in view".into(), false, visible);
+    add("light: lamps in view, hidden".into(), false, hidden);
     rows
 }
 

@@ -2,11 +2,13 @@
 //! and counts in full, without a partner for multiple importance sampling.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
 use limpid_scenes::LightKind;
 
 use super::directional::Directional;
+use super::ies::Ies;
 use super::point::Point;
 use super::projector::Projector;
 use super::spot::Spot;
@@ -28,6 +30,7 @@ pub struct Arriving {
 pub enum Delta {
     Point(Point),
     Spot(Spot),
+    Ies(Ies),
     Directional(Directional),
     Projector(Projector),
 }
@@ -37,19 +40,28 @@ impl Delta {
     pub fn new(kind: &LightKind, origin: DVec3) -> Option<Self> {
         let place = |world_from_light: &DMat4| Place::new(*world_from_light, origin);
         Some(match kind {
-            LightKind::Constant { .. } | LightKind::EnvMap { .. } | LightKind::Sun { .. } => return None,
+            LightKind::Constant { .. }
+            | LightKind::EnvMap { .. }
+            | LightKind::Sky { .. }
+            | LightKind::Sun { .. } => return None,
             LightKind::Point { position, intensity } => {
                 Self::Point(Point { position: *position - origin, intensity: (*intensity).into() })
             }
-            LightKind::Spot { world_from_light, intensity, cutoff_deg, beam_deg, texture } => {
+            LightKind::Spot { world_from_light, intensity, cutoff_deg, beam_deg, falloff, texture } => {
                 Self::Spot(Spot {
                     place: place(world_from_light),
                     intensity: (*intensity).into(),
                     cutoff: cutoff_deg.to_radians(),
                     beam: beam_deg.to_radians(),
+                    falloff: *falloff,
                     texture: *texture,
                 })
             }
+            LightKind::Ies { world_from_light, intensity, profile } => Self::Ies(Ies {
+                place: place(world_from_light),
+                intensity: (*intensity).into(),
+                profile: Arc::clone(profile),
+            }),
             LightKind::Directional { direction, irradiance } => {
                 Self::Directional(Directional { wi: -*direction, irradiance: (*irradiance).into() })
             }
@@ -70,6 +82,7 @@ impl Delta {
         match self {
             Self::Point(light) => light.at(p),
             Self::Spot(light) => light.at(p, textures),
+            Self::Ies(light) => light.at(p),
             Self::Directional(light) => Some(light.at()),
             Self::Projector(light) => light.at(p, textures),
         }
@@ -80,6 +93,7 @@ impl Delta {
         match self {
             Self::Point(light) => light.power(),
             Self::Spot(light) => light.power(textures),
+            Self::Ies(light) => light.power(),
             Self::Directional(light) => PI * scene_radius * scene_radius * light.irradiance(),
             Self::Projector(light) => light.power(textures),
         }

@@ -11,10 +11,13 @@ mod directional;
 mod disk;
 mod environment;
 mod gather;
+mod ies;
 mod point;
 mod projector;
 mod rectangle;
 mod shape;
+mod sky;
+
 mod sphere;
 mod spot;
 mod sun;
@@ -35,6 +38,7 @@ use choice::{Weigh, choose_from};
 use delta::Delta;
 use environment::EnvMap;
 pub use shape::{LightAnalytic, LightForm, LightRectangle, LightShape, LightTriangle};
+use sky::Sky;
 use sun::Sun;
 use surface::SurfaceLight;
 
@@ -96,7 +100,8 @@ enum Infinite {
     /// The same radiance from everywhere.
     Constant(Rgb),
     EnvMap(Box<EnvMap>),
-    Sun(Sun),
+    Sky(Box<Sky>),
+    Sun(Box<Sun>),
 }
 
 /// All lights of a scene.
@@ -274,11 +279,13 @@ impl Infinite {
             LightKind::EnvMap { image, scale, world_from_light } => {
                 Some(Self::EnvMap(Box::new(EnvMap::new(image.clone(), *scale, *world_from_light))))
             }
-            LightKind::Sun { direction, half_deg, radiance } => {
-                Some(Self::Sun(Sun::new(*direction, *half_deg, (*radiance).into())))
+            LightKind::Sky { daylight, scale } => Some(Self::Sky(Box::new(Sky::new(daylight, *scale)))),
+            LightKind::Sun { daylight, half_deg, scale } => {
+                Some(Self::Sun(Box::new(Sun::new(daylight, *half_deg, *scale))))
             }
             LightKind::Point { .. }
             | LightKind::Spot { .. }
+            | LightKind::Ies { .. }
             | LightKind::Directional { .. }
             | LightKind::Projector { .. } => None,
         }
@@ -289,9 +296,14 @@ impl Infinite {
     fn sample(&self, u: DVec2) -> Option<(Vec3, Rgb, f64)> {
         match self {
             Self::Constant(_) => None, // it is never chosen
+            // As it is looked up where a path leaves the scene in this direction.
             Self::EnvMap(light) => {
                 let wi = light.sample(u)?.as_vec3();
-                // As it is looked up where a path leaves the scene in this direction.
+                let (radiance, pdf) = light.eval(wi);
+                Some((wi, radiance, pdf))
+            }
+            Self::Sky(light) => {
+                let wi = light.sample(u)?.as_vec3();
                 let (radiance, pdf) = light.eval(wi);
                 Some((wi, radiance, pdf))
             }
@@ -304,6 +316,7 @@ impl Infinite {
         match self {
             Self::Constant(radiance) => (*radiance, 0.0),
             Self::EnvMap(light) => light.eval(wi),
+            Self::Sky(light) => light.eval(wi),
             Self::Sun(light) => light.eval(wi),
         }
     }
@@ -312,22 +325,20 @@ impl Infinite {
     /// chosen: nothing about it is better known than a BSDF's own density, so that a light sample would add noise (a
     /// convex Lambertian body under it has none without) and cost a ray (compare Karlík et al. 2019).
     fn weigh(&self, scene_radius: f64) -> Weigh {
+        let of = |(integral, is_black): (f64, bool)| {
+            if is_black { Weigh::Never } else { Weigh::Power(PI * scene_radius * scene_radius * integral) }
+        };
         match self {
             Self::Constant(_) => Weigh::Never,
-            Self::EnvMap(light) => match light.integral() {
-                (_, true) => Weigh::Never,
-                (integral, false) => Weigh::Power(PI * scene_radius * scene_radius * integral),
-            },
-            Self::Sun(light) => match light.integral() {
-                0.0 => Weigh::Never,
-                integral => Weigh::Power(PI * scene_radius * scene_radius * integral),
-            },
+            Self::EnvMap(light) => of(light.integral()),
+            Self::Sky(light) => of(light.integral()),
+            Self::Sun(light) => of((light.integral(), light.integral() == 0.0)),
         }
     }
 
     fn bad_texels(&self) -> u64 {
         match self {
-            Self::Constant(_) | Self::Sun(_) => 0,
+            Self::Constant(_) | Self::Sky(_) | Self::Sun(_) => 0,
             Self::EnvMap(light) => light.bad_texels(),
         }
     }

@@ -1,22 +1,16 @@
 //! A point that shines into a cone.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec3, Vec2};
-use limpid_scenes::Color;
+use limpid_scenes::{Color, SpotFalloff};
 
 use super::delta::{Arriving, Place, scaled};
 use super::mean_luminance;
 use crate::color::{Rgb, luminance};
 use crate::texture::Textures;
 
-/// A spot light with the falloff of Mitsuba 3, linear in the angle θ to the axis:
-///
-/// ```text
-/// I(θ) = intensity · texture · { 1                                      θ ≤ beam
-///                              { (cutoff − θ) / (cutoff − beam)         beam < θ < cutoff
-///                              { 0                                      else
-/// ```
+/// A spot light: intensity · falloff · texture.
 ///
 /// The texture is that of the plane z = 1, where it spans the square around the cone.
 pub struct Spot {
@@ -27,13 +21,15 @@ pub struct Spot {
     pub cutoff: f64,
     /// Half angle, at most `cutoff`.
     pub beam: f64,
+    pub falloff: SpotFalloff,
     pub texture: Color,
 }
 
 impl Spot {
     pub fn at(&self, p: DVec3, textures: &Textures) -> Option<Arriving> {
         let local = self.place.local(p);
-        let falloff = self.falloff(local.x.hypot(local.y).atan2(local.z));
+        let theta = local.x.hypot(local.y).atan2(local.z);
+        let falloff = self.falloff.at(theta, self.beam, self.cutoff);
         if falloff <= 0.0 {
             return None;
         }
@@ -50,20 +46,10 @@ impl Spot {
         })
     }
 
-    /// π (2 − cos beam − cos cutoff) · intensity · mean texture, right for narrow transitions.
+    /// Solid angle · intensity · mean texture, right for a texture that is much alike all over.
     pub fn power(&self, textures: &Textures) -> f64 {
-        let solid = PI * (2.0 - self.beam.cos() - self.cutoff.cos());
+        let solid = self.falloff.integral(self.beam, self.cutoff);
         solid * f64::from(luminance(self.intensity)) * mean_luminance(self.texture, textures)
-    }
-
-    fn falloff(&self, theta: f64) -> f64 {
-        if theta <= self.beam {
-            1.0
-        } else if theta < self.cutoff {
-            (self.cutoff - theta) / (self.cutoff - self.beam)
-        } else {
-            0.0 // NaN, too
-        }
     }
 
     /// The centre where the cone has no square around it.

@@ -275,14 +275,41 @@ fn lights_and_cameras_come_back_as_they_were() {
         ref other => panic!("{other:?}"),
     };
     assert!(half(&again).iter().zip(half(&scene)).all(|(a, b)| (a - b).abs() < 1e-12));
-    // The disk of the sun becomes its direction.
-    let (directional, sun) = (&again.lights[5].kind, &scene.lights[5].kind);
-    let crate::LightKind::Directional { direction, .. } = directional else { panic!("{directional:?}") };
-    let crate::LightKind::Sun { direction: towards, .. } = sun else { panic!("{sun:?}") };
-    assert!(
-        direction.abs_diff_eq(-*towards, 1e-9) && exported.notes[0].contains("sunsky 5.sun"),
-        "{exported:?}"
-    );
+    // Sky and sun become one emitter, and that two lights again.
+    for i in 4..6 {
+        let (ours, theirs) = (day(&again, i), day(&scene, i));
+        assert!(ours.0.sun.abs_diff_eq(theirs.0.sun, 1e-9) && (ours.1 - theirs.1).abs() < 1e-9, "{ours:?}");
+    }
+    assert!(exported.notes.is_empty(), "{exported:?}");
+}
+
+/// The day of a light, and its sun's width.
+fn day(scene: &Scene, light: usize) -> (crate::Daylight, f64) {
+    match scene.lights[light].kind {
+        crate::LightKind::Sky { daylight, .. } => (daylight, 0.0),
+        crate::LightKind::Sun { daylight, half_deg, .. } => (daylight, half_deg),
+        ref other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn suns_stay_suns_unless_something_else_surrounds_the_scene() {
+    let sun = r#"<emitter type="sunsky"><float name="sky_scale" value="0"/><float name="sun_aperture" value="3"/></emitter>"#;
+    let (alone, exported) = there_and_back(&loaded(sun));
+    assert!((day(&alone, 0).1 - 1.5).abs() < 1e-9 && exported.notes.is_empty(), "{exported:?}");
+
+    let sun =
+        r#"<emitter type="constant"/><emitter type="sun"><float name="sun_aperture" value="3"/></emitter>"#;
+    let (beside, exported) = there_and_back(&loaded(sun));
+    let crate::LightKind::Directional { direction, irradiance } = beside.lights[1].kind else {
+        panic!("{:?}", beside.lights)
+    };
+    let day = day(&alone, 0).0;
+    let towards = day.world_from_light.transform_vector3(day.sun);
+    assert!(direction.abs_diff_eq(-towards, 1e-9) && exported.notes[0].contains("sun 2"), "{exported:?}");
+    let truth =
+        day.sun(1.5).map(|l| f64::from(l) * std::f64::consts::PI * 1.5_f64.to_radians().sin().powi(2));
+    assert!((f64::from(irradiance[0]) / truth[0] - 1.0).abs() < 1e-5, "{irradiance:?} {truth:?}");
 }
 
 #[test]

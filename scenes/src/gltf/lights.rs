@@ -8,7 +8,7 @@ use glam::DMat4;
 use super::Reader;
 use super::cameras::upright;
 use super::json::{EXPORT_AGAIN, Item};
-use crate::{Color, Light, LightKind, SceneError};
+use crate::{Color, Light, LightKind, SceneError, SpotFalloff};
 
 impl Reader<'_> {
     /// The light that a node's `reference` names.
@@ -53,6 +53,7 @@ impl Reader<'_> {
                     intensity: strength,
                     cutoff_deg: outer.to_degrees(),
                     beam_deg: inner.to_degrees(),
+                    falloff: SpotFalloff::CosineSquared,
                     texture: Color::Constant([1.0; 3]),
                 }
             }

@@ -1,14 +1,14 @@
-//! `sunsky`, `sky` and `sun`: a picture of the sky and the sun's disk, made while reading.
+//! `sunsky`, `sky` and `sun`: the light of a clear day.
 
 use glam::{DMat3, DMat4, DVec3};
 
 use super::Reader;
 use super::object::Object;
-use crate::daylight::{APERTURE_DEG, Moment, is_up, sky, sun_irradiance, sun_position};
+use crate::daylight::{APERTURE_DEG, Moment, sun_position};
 use crate::spectrum::Quantity;
-use crate::{Color, Light, LightKind, SceneError};
+use crate::{Color, Daylight, Light, LightKind, SceneError};
 
-/// Half an angle in degrees below which the sun is but a direction: a ray's own rounding is a hundredth of it.
+/// Half an angle in degrees that the sun has at least: a ray's own rounding is a hundredth of it.
 const SMALLEST_SUN_DEG: f64 = 1e-3;
 
 impl Reader<'_> {
@@ -19,49 +19,40 @@ impl Reader<'_> {
         let all = scale(object, "scale")?;
         let (sun_scale, sky_scale) = (all * scale(object, "sun_scale")?, all * scale(object, "sky_scale")?);
         let half_deg = half_angle(object)?;
-        // the model has a ground of its own; how to sample is ours
-        self.color(object, "albedo", Quantity::Reflectance, Color::Constant([0.3; 3]))?;
-        object.without_effect(&["resolution", "complex_sun"]);
+        let Color::Constant(albedo) =
+            self.color(object, "albedo", Quantity::Reflectance, Color::Constant([0.3; 3]))?
+        else {
+            return Err(object.error("a texture as the albedo of the ground", "give a colour"));
+        };
+        // a picture of the sky is not made
+        object.without_effect(&["resolution"]);
+        if object.boolean("complex_sun", false)? {
+            let message = format!("{kind}: a complex sun, darker at its rim, is not read; it shines evenly");
+            self.warn(object.id, message);
+        }
 
         let world_from_sky = world_from_sky(object)?;
         let linear = DMat3::from_mat4(world_from_sky);
         let sun = sun_direction(object, linear)?;
-        if !is_up(sun) {
+        if sun.y < 0.0 {
             self.warn(object.id, format!("{kind}: the sun is below the horizon; the light is left out"));
             return Ok(());
         }
-        self.warn(
-            object.id,
-            format!(
-                "{kind}: the sky of Preetham et al. 1999 with the irradiance of Hosek and Wilkie 2012; Mitsuba 3.9 has the \
-                 latter, whose light comes from elsewhere in the sky"
-            ),
-        );
         let name = self.name(object, kind, self.scene.lights.len());
+        let daylight = Daylight { sun, turbidity, albedo, world_from_light: world_from_sky };
         let is_whole = kind == "sunsky";
         if kind != "sun" && sky_scale > 0.0 {
-            let image = sky(sun, turbidity);
-            let kind = LightKind::EnvMap { image, scale: sky_scale as f32, world_from_light: world_from_sky };
+            let kind = LightKind::Sky { daylight, scale: sky_scale as f32 };
             self.scene.lights.push(Light { name: name.clone(), kind, place: object.place() });
         }
         if kind != "sky" && sun_scale > 0.0 {
-            let direction = (linear * sun).normalize();
-            let kind = sun_light(direction, half_deg, sun_irradiance(sun, turbidity).map(|e| e * sun_scale));
+            let half_deg = half_deg.clamp(SMALLEST_SUN_DEG, 90.0);
+            let kind = LightKind::Sun { daylight, half_deg, scale: sun_scale as f32 };
             let name = if is_whole { format!("{name}.sun") } else { name };
             self.scene.lights.push(Light { name, kind, place: object.place() });
         }
         Ok(())
     }
-}
-
-/// The disk, of the same irradiance whatever its size.
-fn sun_light(direction: DVec3, half_deg: f64, irradiance: [f64; 3]) -> LightKind {
-    if half_deg < SMALLEST_SUN_DEG {
-        return LightKind::Directional { direction: -direction, irradiance: irradiance.map(|e| e as f32) };
-    }
-    // of the projected solid angle, π sin², as the irradiance is
-    let projected = std::f64::consts::PI * half_deg.to_radians().sin().powi(2);
-    LightKind::Sun { direction, half_deg, radiance: irradiance.map(|e| (e / projected) as f32) }
 }
 
 fn scale(object: &Object<'_>, key: &'static str) -> Result<f64, SceneError> {

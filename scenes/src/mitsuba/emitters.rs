@@ -1,14 +1,17 @@
 //! `<emitter>`: light from surfaces, from points and from far away.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DMat4, DVec3};
 
 use super::Reader;
 use super::camera::is_invertible;
 use super::document::ElementId;
 use super::object::Object;
-use super::survey::{EMITTERS, Standing};
+use super::survey::EMITTERS;
+use crate::ies;
 use crate::spectrum::Quantity;
-use crate::{Color, Emission, Light, LightKind, Rgb, SceneError, TextureKind};
+use crate::{Color, Emission, Light, LightKind, Rgb, SceneError, SpotFalloff, TextureKind};
 
 const WHITE: Color = Color::Constant([1.0; 3]);
 
@@ -20,7 +23,8 @@ impl Reader<'_> {
     pub(super) fn emission(&mut self, id: ElementId) -> Result<Option<Emission>, SceneError> {
         let object = Object::new(self.document, id);
         let kind = object.kind()?;
-        if EMITTERS.standing(kind, object.element)? == Standing::Later || kind != "area" {
+        EMITTERS.standing(kind, object.element)?;
+        if kind != "area" {
             self.warn(id, format!("{kind}: not read on a shape; left out"));
             return Ok(None);
         }
@@ -36,10 +40,7 @@ impl Reader<'_> {
     pub(super) fn emitter(&mut self, id: ElementId) -> Result<(), SceneError> {
         let object = Object::new(self.document, id);
         let kind = object.kind()?;
-        if EMITTERS.standing(kind, object.element)? == Standing::Later {
-            self.warn(id, format!("{kind} is not read yet; the light is left out"));
-            return Ok(());
-        }
+        EMITTERS.standing(kind, object.element)?;
         object.without_effect(&WITHOUT_EFFECT);
         let light = match kind {
             "area" => {
@@ -71,6 +72,7 @@ impl Reader<'_> {
                 return Ok(());
             }
             "spot" => self.spot(&object)?,
+            "ies" => self.ies(&object)?,
             "directional" => {
                 let help = "give a colour; for a picture use the emitter \"projector\"";
                 LightKind::Directional {
@@ -122,7 +124,35 @@ impl Reader<'_> {
         let help = "give a colour; a picture goes into \"texture\"";
         let intensity = self.light_color(object, "intensity", help)?;
         let texture = self.color(object, "texture", Quantity::Ratio, WHITE)?;
-        Ok(LightKind::Spot { world_from_light: frame(object)?, intensity, cutoff_deg, beam_deg, texture })
+        let world_from_light = frame(object)?;
+        let falloff = SpotFalloff::Angle;
+        Ok(LightKind::Spot { world_from_light, intensity, cutoff_deg, beam_deg, falloff, texture })
+    }
+
+    /// The point light of a photometric file, which old files call its `path`.
+    fn ies(&mut self, object: &Object<'_>) -> Result<LightKind, SceneError> {
+        let named = match object.string("filename")? {
+            Some(named) => Some(named),
+            None => object.string("path")?,
+        };
+        let Some((name, parameter)) = named else {
+            let help = "name an IES file: <string name=\"filename\" value=\"…\"/>";
+            return Err(object.error("no \"filename\"", help));
+        };
+        let label = object.element.label();
+        let path = self.find(name, parameter, &label)?;
+        let bytes = self.bytes(&path, &parameter.place_of("value"), &label)?;
+        let profile = ies::parse(&bytes).map_err(|error| SceneError {
+            file: path,
+            line: error.line,
+            column: 1,
+            element: label,
+            problem: error.problem,
+            help: error.help.into(),
+        })?;
+        let intensity =
+            self.light_color(object, "intensity", "give a colour; the profile goes into \"filename\"")?;
+        Ok(LightKind::Ies { world_from_light: frame(object)?, intensity, profile: Arc::new(profile) })
     }
 
     /// Width and height of the picture behind a colour; what has no pixels is square.

@@ -126,8 +126,20 @@ pub(super) const SHAPES: Class = Class {
 
 pub(super) const EMITTERS: Class = Class {
     tag: "emitter",
-    now: &["area", "constant", "envmap", "point", "spot", "directional", "projector", "sunsky", "sun", "sky"],
-    later: &["ies"],
+    now: &[
+        "area",
+        "constant",
+        "envmap",
+        "point",
+        "spot",
+        "ies",
+        "directional",
+        "projector",
+        "sunsky",
+        "sun",
+        "sky",
+    ],
+    later: &[],
     out: &[],
 };
 

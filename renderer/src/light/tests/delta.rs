@@ -38,6 +38,7 @@ fn spot(cutoff_deg: f64, beam_deg: f64, texture: Color) -> LightKind {
         intensity: [1.0, 2.0, 3.0],
         cutoff_deg,
         beam_deg,
+        falloff: limpid_scenes::SpotFalloff::Angle,
         texture,
     }
 }
@@ -53,6 +54,41 @@ fn point_light_falls_with_the_square_of_the_distance() {
     assert_eq!(at(&lights, [0.0, 0.0, 2.0], &textures), None);
     let sample = lights.sample(Vec3::ZERO, 0.5, Vec2::ZERO, &textures).unwrap();
     assert!(sample.t_max < 2.0 && sample.t_max > 1.9999);
+}
+
+/// A lamp of cos² of the angle to its axis, on one side twice as bright: what its samples give over a sphere around it is the
+/// integral of the profile, ∫ I dω = 2π/3 · (1 + 2)/2.
+#[test]
+fn photometric_light_sends_its_profile() {
+    let textures = NO_TEXTURES();
+    let vertical_deg: Vec<f32> = (0..=90).map(|i| i as f32).collect();
+    let horizontal_deg = vec![0.0, 90.0, 180.0, 270.0, 360.0];
+    let plane = |factor: f32| vertical_deg.iter().map(move |v| factor * v.to_radians().cos().powi(2));
+    let candelas = [1.5, 2.0, 1.5, 1.0, 1.5].into_iter().flat_map(plane).collect();
+    let profile = limpid_scenes::IesProfile { vertical_deg: vertical_deg.clone(), horizontal_deg, candelas };
+    let kind = LightKind::Ies {
+        world_from_light: DMat4::from_translation(DVec3::new(1.0, 2.0, 3.0)) * DMat4::from_rotation_y(PI),
+        intensity: [1.0, 2.0, 4.0],
+        profile: std::sync::Arc::new(profile),
+    };
+    let lights = light(kind, &textures, DVec3::ZERO);
+    // along the axis, turned to −z; at its side, towards +y, and behind
+    let (wi, along) = at(&lights, [1.0, 2.0, 1.0], &textures).unwrap();
+    assert_eq!(wi, Vec3::Z);
+    assert_near(along, [0.375, 0.75, 1.5]);
+    assert_near(at(&lights, [1.0, 3.0, 2.0], &textures).unwrap().1, [0.5, 1.0, 2.0]);
+    assert!(at(&lights, [1.0, 3.0, 3.1], &textures).is_none());
+    let (mut flux, n, radius) = (0.0, 1 << 14, 2.0);
+    for i in 0..n {
+        let (_, u) = numbers(Sampler::Sobol, i);
+        let (z, phi) = (1.0 - 2.0 * f64::from(u.x), std::f64::consts::TAU * f64::from(u.y));
+        let r = (1.0 - z * z).sqrt();
+        let p = DVec3::new(1.0, 2.0, 3.0) + radius * DVec3::new(r * phi.cos(), r * phi.sin(), z);
+        let arriving = at(&lights, p.to_array(), &textures);
+        flux += arriving.map_or(0.0, |(_, irradiance)| f64::from(irradiance.x));
+    }
+    flux *= 4.0 * PI * radius * radius / f64::from(n);
+    assert!((flux / PI - 1.0).abs() < 1e-3, "{flux}");
 }
 
 #[test]

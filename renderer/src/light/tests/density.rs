@@ -157,24 +157,82 @@ fn samples_of_infinite_lights_follow_their_density() {
     }
 }
 
+/// A day of which light space is turned, mirrored and scaled.
+fn day(elevation_deg: f64) -> limpid_scenes::Daylight {
+    let (sin, cos) = elevation_deg.to_radians().sin_cos();
+    let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.0) * 2.0;
+    limpid_scenes::Daylight {
+        sun: DVec3::new(0.6 * cos, sin, -0.8 * cos),
+        turbidity: 3.0,
+        albedo: [0.3; 3],
+        world_from_light: glam::DMat4::from_mat3(turn * DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0))),
+    }
+}
+
+#[test]
+fn samples_of_the_sky_follow_their_density() {
+    for elevation in [2.0, 30.0, 90.0] {
+        let lights = infinite(LightKind::Sky { daylight: day(elevation), scale: 2.0 });
+        assert_chi2(&format!("sky at {elevation}"), &lights, &NO_TEXTURES(), None, Vec3::ZERO);
+    }
+}
+
+#[test]
+fn samples_of_the_sky_weigh_much_alike() {
+    for elevation in [1.0, 10.0, 45.0] {
+        let lights = infinite(LightKind::Sky { daylight: day(elevation), scale: 1.0 });
+        let (mut sum, mut squares, mut largest, n) = (0.0, 0.0, 0.0f64, 1 << 14);
+        for i in 0..n {
+            let (choice, u) = numbers(Sampler::Sobol, i);
+            let Some(s) = lights.sample(Vec3::ZERO, choice, u, &NO_TEXTURES()) else { continue };
+            let weight = f64::from(crate::color::luminance(s.radiance) / s.pdf);
+            (sum, squares, largest) = (sum + weight, squares + weight * weight, largest.max(weight));
+        }
+        let mean = sum / f64::from(n);
+        let deviation = (squares / f64::from(n) / (mean * mean) - 1.0).sqrt();
+        println!("sun at {elevation}: deviation {deviation:.3}, largest {:.2} of the mean", largest / mean);
+        assert!(deviation < 0.2 && largest < 3.0 * mean, "{elevation}: {deviation} {largest} {mean}");
+    }
+}
+
 #[test]
 fn samples_of_the_sun_follow_their_density() {
-    for half_deg in [0.05, 0.27, 20.0, 90.0] {
-        let direction = DVec3::new(0.36, 0.48, 0.8);
-        let lights = infinite(LightKind::Sun { direction, half_deg, radiance: [3.0; 3] });
+    let day = day(60.0);
+    let direction = day.world_from_light.transform_vector3(day.sun).normalize();
+    for half_deg in [0.05, 0.27, 20.0] {
+        let lights = infinite(LightKind::Sun { daylight: day, half_deg, scale: 1e-3 });
         assert_chi2(&format!("sun of {half_deg}"), &lights, &NO_TEXTURES(), None, Vec3::ZERO);
         // Across the sun: E = π sin² L.
-        let samples = 1 << 12;
-        let irradiance: f64 = (0..samples)
-            .map(|i| {
-                let (choice, u) = numbers(Sampler::Sobol, i);
-                let s = lights.sample(Vec3::ZERO, choice, u, &NO_TEXTURES()).unwrap();
-                f64::from(s.radiance.x / s.pdf) * s.wi.as_dvec3().dot(direction) / f64::from(samples)
-            })
-            .sum();
-        let truth = 3.0 * PI * half_deg.to_radians().sin().powi(2);
+        let truth = PI * half_deg.to_radians().sin().powi(2) * 1e-3 * f64::from(day.sun(half_deg)[0]);
+        let irradiance = irradiance_across(&lights, direction);
         assert!((irradiance / truth - 1.0).abs() < 1e-3, "{half_deg}: {irradiance} {truth}");
     }
+}
+
+#[test]
+fn the_horizon_cuts_the_sun() {
+    let day = day(0.0);
+    let direction = day.world_from_light.transform_vector3(day.sun).normalize();
+    for half_deg in [0.3f64, 10.0] {
+        let lights = infinite(LightKind::Sun { daylight: day, half_deg, scale: 1.0 });
+        let whole = PI * half_deg.to_radians().sin().powi(2) * f64::from(day.sun(half_deg)[0]);
+        let share = irradiance_across(&lights, direction) / whole;
+        assert!((share - 0.5).abs() < 1e-3, "{half_deg}: {share}");
+        let up = day.world_from_light.transform_vector3(DVec3::Y).normalize();
+        let lower = (direction - 0.5 * half_deg.to_radians() * up).normalize().as_vec3();
+        assert!(lights.miss(lower).all(|(radiance, pdf)| radiance == crate::color::Rgb::ZERO && pdf > 0.0));
+    }
+}
+
+/// Irradiance in red on a surface across `normal`.
+fn irradiance_across(lights: &Lights, normal: DVec3) -> f64 {
+    let samples = 1 << 12;
+    let share = |i| {
+        let (choice, u) = numbers(Sampler::Sobol, i);
+        let s = lights.sample(Vec3::ZERO, choice, u, &NO_TEXTURES()).unwrap();
+        f64::from(s.radiance.x / s.pdf) * s.wi.as_dvec3().dot(normal) / f64::from(samples)
+    };
+    (0..samples).map(share).sum()
 }
 
 #[test]

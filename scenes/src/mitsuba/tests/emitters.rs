@@ -97,68 +97,95 @@ fn lights_that_make_no_sense_are_errors_with_a_cure() {
     }
 }
 
-/// The lights of one emitter in a file of this version, and its only warning.
-fn daylight(version: &str, kind: &str, inside: &str) -> (Vec<crate::Light>, String) {
+#[test]
+fn photometric_files_become_lights() {
+    let lamp = b"TILT=NONE\n1 100 2 2 1 1 2 0 0 0\n1 1 9\n0 90\n0\n3 1\n";
+    // as a file of 0.x has it
+    let emitter = |key: &str| {
+        format!(
+            r#"<emitter type="ies"><string name="{key}" value="lamp.ies"/><rgb name="intensity" value="1 2 3"/>
+            <transform name="to_world"><translate x="5"/></transform></emitter>"#
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let load = |key: &str| {
+        let text = format!(r#"<scene version="0.6.0">{}</scene>"#, emitter(key));
+        crate::load_str(&text, folder.path(), &crate::LoadOptions::default())
+    };
+    std::fs::write(folder.path().join("lamp.ies"), lamp).unwrap();
+    for key in ["path", "filename"] {
+        let scene = load(key).unwrap();
+        assert!(scene.warnings.iter().all(|w| w.element == "scene"), "{:?}", scene.warnings);
+        let LightKind::Ies { world_from_light, intensity, profile } = &scene.lights[0].kind else { panic!() };
+        assert_eq!((world_from_light.w_axis.x, intensity), (5.0, &[1.0, 2.0, 3.0]));
+        assert_eq!([0.0, 45.0, 91.0].map(|v| profile.at(v, 77.0)), [6.0, 4.0, 0.0]);
+    }
+    std::fs::write(folder.path().join("lamp.ies"), lamp.strip_suffix(b"1\n").unwrap()).unwrap();
+    let error = load("path").unwrap_err().to_string();
+    assert!(error.contains("lamp.ies:3:1: emitter \"ies\": 2 × 1 values"), "{error}");
+    assert!(try_load(r#"<emitter type="ies"/>"#).unwrap_err().to_string().contains("name an IES file"));
+}
+
+/// The lights of one emitter in a file of this version, and its warnings.
+fn daylight(version: &str, kind: &str, inside: &str) -> (Vec<crate::Light>, Vec<String>) {
     let text = format!(r#"<scene version="{version}"><emitter type="{kind}">{inside}</emitter></scene>"#);
     let scene = crate::load_str(&text, "".as_ref(), &crate::LoadOptions::default()).unwrap();
-    let warnings: Vec<_> = scene.warnings.iter().filter(|w| w.element != "scene").collect();
-    assert_eq!(warnings.len(), 1, "{warnings:?}");
-    (scene.lights, warnings[0].message.clone())
+    let warnings = scene.warnings.into_iter().filter(|w| w.element != "scene").map(|w| w.message);
+    (scene.lights, warnings.collect())
+}
+
+/// Towards a day's sun in world space.
+fn towards(day: &crate::Daylight) -> DVec3 {
+    day.world_from_light.transform_vector3(day.sun)
 }
 
 #[test]
 fn daylight_is_a_sky_and_a_sun() {
-    let (lights, warning) = daylight("3.0.0", "sunsky", "");
-    assert!(warning.contains("Preetham") && warning.contains("Mitsuba 3.9"), "{warning}");
+    let given = r#"<rgb name="albedo" value="0.1 0.2 0.3"/><float name="turbidity" value="4"/>"#;
+    let (lights, warnings) = daylight("3.0.0", "sunsky", given);
+    assert!(warnings.is_empty(), "{warnings:?}");
     let [sky, sun] = &lights[..] else { panic!("{lights:?}") };
-    let LightKind::EnvMap { world_from_light, scale: 1.0, .. } = &sky.kind else { panic!("{sky:?}") };
+    let LightKind::Sky { daylight: day, scale: 1.0 } = &sky.kind else { panic!("{sky:?}") };
+    assert_eq!((day.albedo, day.turbidity), ([0.1, 0.2, 0.3], 4.0));
     // +z is up; where Mitsuba 3.9.1 has the sun of its default place and time
-    assert!(world_from_light.transform_vector3(DVec3::Y).abs_diff_eq(DVec3::Z, 1e-12));
-    let LightKind::Sun { direction, half_deg, .. } = sun.kind else { panic!("{sun:?}") };
-    assert!(direction.abs_diff_eq(DVec3::new(0.0546, 0.6941, 0.7179), 0.006), "{direction}");
-    assert!((half_deg - 0.2679).abs() < 1e-6 && sun.name == "sunsky 1.sun", "{sun:?}");
+    assert!(day.world_from_light.transform_vector3(DVec3::Y).abs_diff_eq(DVec3::Z, 1e-12));
+    assert!(towards(day).abs_diff_eq(DVec3::new(0.0546, 0.6941, 0.7179), 0.006), "{day:?}");
+    let LightKind::Sun { daylight: same, half_deg, scale: 1.0 } = sun.kind else { panic!("{sun:?}") };
+    assert!(same == *day && (half_deg - 0.2679).abs() < 1e-6 && sun.name == "sunsky 1.sun", "{sun:?}");
 
     // of 0.x: +y is up, +x east and +z south; the sun of an afternoon stands in the west
     let (old, _) = daylight("0.6.0", "sun", r#"<float name="sunRadiusScale" value="2"/>"#);
-    let [LightKind::Sun { direction: west, half_deg, .. }] = [&old[0].kind] else { panic!("{old:?}") };
+    let [LightKind::Sun { daylight: west, half_deg, .. }] = [&old[0].kind] else { panic!("{old:?}") };
+    let place = towards(west);
     assert!(
-        (west.y - direction.z).abs() < 1e-9 && west.x < -0.6 && (half_deg - 0.5358).abs() < 1e-6,
-        "{west}"
+        (place.y - day.sun.y).abs() < 1e-9 && place.x < -0.6 && (half_deg - 0.5358).abs() < 1e-6,
+        "{place}"
     );
-    assert!(matches!(
-        daylight("0.6.0", "sky", "").0[..],
-        [crate::Light { kind: LightKind::EnvMap { .. }, .. }]
-    ));
+    assert!(matches!(daylight("0.6.0", "sky", "").0[..], [crate::Light { kind: LightKind::Sky { .. }, .. }]));
 }
 
 #[test]
-fn a_sun_has_the_same_irradiance_whatever_its_size() {
-    let up = r#"<vector name="sun_direction" value="0 3 4"/><float name="sky_scale" value="0"/>"#;
-    let irradiance = |size: &str| {
-        let (lights, _) = daylight("3.0.0", "sunsky", &format!("{up}{size}"));
-        match lights[0].kind {
-            LightKind::Sun { direction, half_deg, radiance } => {
-                assert!(direction.abs_diff_eq(DVec3::new(0.0, 0.6, 0.8), 1e-12), "{direction}");
-                f64::from(radiance[1]) * std::f64::consts::PI * half_deg.to_radians().sin().powi(2)
-            }
-            LightKind::Directional { direction, irradiance } => {
-                assert!(direction.abs_diff_eq(DVec3::new(0.0, -0.6, -0.8), 1e-12), "{direction}");
-                f64::from(irradiance[1])
-            }
-            ref other => panic!("{other:?}"),
-        }
+fn suns_have_their_direction_size_and_scale() {
+    let sun = |inside: &str| {
+        let up = r#"<vector name="sun_direction" value="0 3 4"/><float name="sky_scale" value="0"/>"#;
+        let (lights, warnings) = daylight("3.0.0", "sunsky", &format!("{up}{inside}"));
+        let [crate::Light { kind: LightKind::Sun { daylight, half_deg, scale }, .. }] = lights[..] else {
+            panic!("{lights:?}")
+        };
+        assert!(towards(&daylight).abs_diff_eq(DVec3::new(0.0, 0.6, 0.8), 1e-12), "{daylight:?}");
+        (half_deg, scale, warnings)
     };
-    let plain = irradiance("");
-    for size in ["<float name=\"sun_aperture\" value=\"5\"/>", "<float name=\"sun_aperture\" value=\"0\"/>"] {
-        assert!((irradiance(size) / plain - 1.0).abs() < 1e-5, "{size}");
-    }
-    assert!((irradiance(r#"<float name="sun_scale" value="0.5"/>"#) / plain - 0.5).abs() < 1e-5);
+    assert_eq!(sun(r#"<float name="sun_aperture" value="5"/>"#).0, 2.5);
+    // a point has no direction to be drawn: it gets a width that nobody sees
+    assert_eq!(sun(r#"<float name="sun_aperture" value="0"/>"#).0, 1e-3);
+    assert_eq!(sun(r#"<float name="sun_scale" value="0.5"/><float name="scale" value="3"/>"#).1, 1.5);
+    assert!(sun(r#"<boolean name="complex_sun" value="true"/>"#).2[0].contains("rim"));
 }
 
 #[test]
 fn night_has_no_daylight() {
-    let (lights, warning) = daylight("3.0.0", "sunsky", r#"<float name="hour" value="2"/>"#);
-    assert!(lights.is_empty() && warning.contains("below the horizon"), "{warning}");
+    let (lights, warnings) = daylight("3.0.0", "sunsky", r#"<float name="hour" value="2"/>"#);
+    assert!(lights.is_empty() && warnings[0].contains("below the horizon"), "{warnings:?}");
     let wrong = r#"<emitter type="sunsky"><float name="turbidity" value="11"/></emitter>"#;
     assert!(try_load(wrong).unwrap_err().to_string().contains("between 1 and 10"));
 }

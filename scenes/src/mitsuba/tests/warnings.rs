@@ -24,7 +24,6 @@ fn each_stand_in_is_named_with_its_place() {
             r#"¦<bsdf type="ward"><rgb name="specular_reflectance" value="0.7"/></bsdf>"#,
             "bsdf \"ward\": diffuse_reflectance and specular_reflectance add up to 1.2, and are scaled together to 1",
         ),
-        (r#"¦<emitter type="ies"/>"#, "emitter \"ies\": ies is not read yet; the light is left out"),
         (
             r#"¦<bsdf type="roughcoating"><bsdf type="coating"><bsdf type="plastic"/></bsdf></bsdf>"#,
             "bsdf \"roughcoating\": a coat over another coat is left out",
