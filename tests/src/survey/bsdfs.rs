@@ -67,7 +67,6 @@ const OUTSIDE_METAL: Parameter = is(
 .warned("Mitsuba 3 refuses");
 
 /// The coat is left out.
-const COATED: Means = Means::Nothing;
 
 /// All of them.
 pub const BSDFS: &[Plugin] = &[
@@ -310,14 +309,17 @@ pub const BSDFS: &[Plugin] = &[
         FRAME,
         "bsdf",
         "roughcoating",
-        Means::Changes,
+        Means::Shows("Coat { facets: Some((Beckmann, 0.1)), int_ior: 1.5046, ext_ior: 1.000277, thickness: 1.0"),
         &[
-            Parameter::new(r#"<float name="alpha" value="0.4"/>"#, COATED).warned("*"),
-            Parameter::new(r#"<string name="distribution" value="ggx"/>"#, COATED).warned("*"),
+            sets(r#"<float name="alpha" value="0.4"/>"#, "Some((Beckmann, 0.4))"),
+            sets(r#"<string name="distribution" value="ggx"/>"#, "Some((Ggx, 0.1))"),
+            INSIDE,
+            OUTSIDE,
+            sets(r#"<rgb name="sigma_a" value="0.1 0.5 0.9"/>"#, "sigma_a: Constant([0.1, 0.5, 0.9])"),
         ],
     )
     .given(r#"<bsdf type="plastic"/>"#)
-    .warned("*"),
+    .warned("Mitsuba 3 refuses"),
     // out
     Plugin::new(FRAME, "bsdf", "pplastic", Means::Refused("out of scope (polarised)"), &[]),
     Plugin::new(FRAME, "bsdf", "polarizer", Means::Refused("out of scope (polarised)"), &[]),

@@ -8,6 +8,9 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use image::{ImageFormat, Rgb, Rgb32FImage, RgbImage};
 
+/// A lamp that shines straight down most.
+const LAMP: &str = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 100\n0 45 90\n0\n30 20 0\n";
+
 /// Writes them.
 ///
 /// # Errors
@@ -31,6 +34,7 @@ pub fn write(folder: &Path) -> io::Result<()> {
     sky.write_to(&mut bytes, ImageFormat::Hdr).map_err(io::Error::other)?;
     fs::write(folder.join("p.hdr"), bytes.into_inner())?;
     fs::write(folder.join("tent.obj"), TENT)?;
+    fs::write(folder.join("lamp.ies"), LAMP)?;
     fs::write(folder.join("colored.ply"), COLORED)?;
     fs::write(folder.join("two.serialized"), serialized()?)?;
     fs::write(folder.join("steps.spd"), "# nm value\n400 0.1\n700 0.9\n")

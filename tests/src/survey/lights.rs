@@ -181,8 +181,15 @@ pub const LIGHTS: &[Plugin] = &[
     .warned("*")
     .only(Old),
     Plugin::new(FRAME, "emitter", "sky", Means::Changes, &[SUN]).warned("*").only(Old),
-    // left out
-    Plugin::new(FAINT, "emitter", "ies", Means::Nothing, &[]).warned("*")
-        .only(Old),
+    Plugin::new(
+        FAINT,
+        "emitter",
+        "ies",
+        Means::Shows("Ies {"),
+        &[sets(r#"<rgb name="intensity" value="3 2 1"/>"#, "intensity: [3.0, 2.0, 1.0]")],
+    )
+    .given(r#"<string name="path" value="lamp.ies"/><transform name="to_world"><lookat origin="0.5 -2 3" target="0 0 0.5" up="0 0 1"/></transform>"#)
+    .warned("Mitsuba 3 refuses")
+    .only(Old),
     Plugin::new(FRAME, "emitter", "difuse", Means::Refused("unknown type \"difuse\""), &[]).only(New),
 ];
