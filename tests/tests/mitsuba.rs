@@ -3,7 +3,7 @@
 //! The whole table, as the docs show it:
 //!
 //! ```sh
-//! cargo test --release --test mitsuba -- --ignored --nocapture
+//! cargo test --release -p limpid-tests --test mitsuba -- --ignored --nocapture
 //! ```
 
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! The Mitsuba project's own test scenes, beside its reference pictures of about 32,000 samples a pixel:
 //!
 //! ```sh
-//! cargo test --release --test references -- --ignored --nocapture
+//! cargo test --release -p limpid-tests --test references -- --ignored --nocapture
 //! ```
 //!
 //! Its variances were taken in XYZ and written as RGB: they are brought back, and the comparison is in XYZ. Each scene's

@@ -31,7 +31,7 @@ pub const LIGHTS: &[Named] = &[
     (
         "area, mesh",
         false,
-        r#"<shape type="ply"><string name="filename" value="lamp.ply"/><transform name="to_world"><scale value="0.7"/><translate z="3"/></transform><emitter type="area"><rgb name="radiance" value="12 10 9"/></emitter></shape>"#,
+        r#"<shape type="ply"><string name="filename" value="lamp.ply"/><boolean name="face_normals" value="true"/><transform name="to_world"><scale value="0.7"/><translate z="3"/></transform><emitter type="area"><rgb name="radiance" value="12 10 9"/></emitter></shape>"#,
     ),
     (
         "area, bitmap",
