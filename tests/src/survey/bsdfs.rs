@@ -66,8 +66,6 @@ const OUTSIDE_METAL: Parameter = is(
 )
 .warned("Mitsuba 3 refuses");
 
-/// The coat is left out.
-
 /// All of them.
 pub const BSDFS: &[Plugin] = &[
     Plugin::new(
