@@ -59,6 +59,8 @@ def load(mi, job, notes):
     # What Mitsuba doesn't know is limpid's to warn about, too.
     config.unused_properties = mi.LogLevel.Debug
     config.unused_parameters = mi.LogLevel.Debug
+    # Mitsuba 3.9.1 refuses some scenes of which it could merge two meshes ("incompatible"); it changes no picture.
+    config.merge_meshes = False
     state = mi.parser.parse_file(config, path, **dict(job["defines"]))
     # Names of version 3 and plain references, so that the edits below meet one form only.
     mi.parser.transform_upgrade(config, state)
