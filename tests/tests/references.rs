@@ -23,8 +23,7 @@ const REFERENCE_SPP: f64 = 32_000.0;
 /// So far may sums of so many samples be off, which Mitsuba adds up in 32 bits: half a step of its last binary digits for
 /// each. (White, 0.95046 in X, is 0.95074 in `test_orthographic_ref_rgb.exr`.)
 const REFERENCE_ROUNDING: f64 = REFERENCE_SPP / (1u64 << 25) as f64;
-/// References that Mitsuba 3.9.1 differs from as limpid does: by 1.2 % in the blocks below the lamp, at 16,384 samples a pixel of
-/// Mitsuba and 65,536 here. These scenes are compared with Mitsuba itself.
+/// References that Mitsuba 3.9.1 differs from as limpid does, in the same blocks. These scenes are compared with Mitsuba itself.
 const OUTDATED: [&str; 1] = ["test_surf_area_light_volpath"];
 /// Passes of one round, in two halves.
 const PASSES: u32 = 16;
