@@ -1,13 +1,14 @@
 //! What stands in where a model file has no camera and no light.
 
 use std::collections::HashMap;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
 use crate::{
-    Camera, Film, FovAxis, Light, LightKind, Mesh, PixelFilter, Place, Projection, Sampler, Scene, Shape,
-    ShapeKind, Warning,
+    Camera, Film, FovAxis, Image, Light, LightKind, Mesh, PixelFilter, Place, Projection, Sampler, Scene,
+    Shape, ShapeKind, Texels, Warning,
 };
 
 /// Width and height of a picture where nothing says another.
@@ -19,6 +20,13 @@ const FOV_DEG: f64 = 45.0;
 /// The way to that camera, seen from the model: somewhat to the right of its front and above. Models face +z (glTF 2.0,
 /// section 3.4), and rooms that are models are open there.
 const FROM: DVec3 = DVec3::new(0.45, 0.3, 1.0);
+/// Radiance of the sky that stands in at its zenith: it sends π onto what is level.
+const ZENITH: f64 = 9.0 / 7.0;
+/// Radiance of the ground below it.
+const GROUND: f64 = 0.2;
+/// Its picture; the rows are odd, for the horizon.
+const SKY_COLUMNS: u32 = 4;
+const SKY_ROWS: u32 = 65;
 /// Room around the model.
 const MARGIN: f64 = 1.05;
 
@@ -43,10 +51,23 @@ pub(crate) fn complete(scene: &mut Scene, has_lamp: bool, place: &Place) {
         scene.cameras.push(camera("camera 1".into(), world_from_camera, projection, SIZE, place.clone()));
     }
     if scene.lights.is_empty() && !has_lamp {
-        scene.warnings.push(warning("no light; a sky of radiance 1 all around stands in"));
-        let kind = LightKind::Constant { radiance: [1.0; 3] };
-        scene.lights.push(Light { name: "sky".into(), kind, place: place.clone() });
+        scene.warnings.push(warning("no light; an overcast sky stands in"));
+        scene.lights.push(Light { name: "sky".into(), kind: overcast(), place: place.clone() });
     }
+}
+
+/// An overcast sky over grey ground: radiance in proportion to 1 + 2 sin of the height (Moon and Spencer 1942), such that
+/// what is level and white has radiance 1. Against a sky that is the same all around nothing white could be told from it.
+fn overcast() -> LightKind {
+    // From the zenith to the nadir; the picture is bilinear between rows, and the horizon is the middle one.
+    let radiance = |row: u32| {
+        let height = (0.5 - f64::from(row) / f64::from(SKY_ROWS - 1)) * PI;
+        if height >= 0.0 { ZENITH * (1.0 + 2.0 * height.sin()) / 3.0 } else { GROUND }
+    };
+    let row = |row: u32| [radiance(row) as f32; 3 * SKY_COLUMNS as usize];
+    let texels = Texels::Linear32((0..SKY_ROWS).flat_map(row).collect());
+    let image = Arc::new(Image { width: SKY_COLUMNS, height: SKY_ROWS, texels });
+    LightKind::EnvMap { image, scale: 1.0, world_from_light: DMat4::IDENTITY }
 }
 
 /// A camera with what model files do not say.
@@ -150,6 +171,20 @@ mod tests {
         let camera_from_world = framing([DVec3::splat(-1.0), DVec3::ONE], 1.0).inverse();
         let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|v| camera_from_world.transform_vector3(v));
         assert!(x.x < 0.0 && y.y > 0.0 && y.x.abs() < 1e-12 && z.z < 0.0, "{x} {y} {z}");
+    }
+
+    #[test]
+    fn what_is_level_and_white_has_radiance_1_under_the_sky() {
+        let LightKind::EnvMap { image, .. } = overcast() else { panic!("a picture") };
+        let Texels::Linear32(values) = &image.texels else { panic!("of floats") };
+        // E = 2π ∫ L cos θ sin θ dθ by the trapezoidal rule over the rows of the upper half, which are linear between.
+        let step = PI / f64::from(SKY_ROWS - 1);
+        let at = |row: u32| {
+            let theta = f64::from(row) * step;
+            f64::from(values[(row * 3 * SKY_COLUMNS) as usize]) * theta.cos() * theta.sin()
+        };
+        let irradiance = 2.0 * PI * step * (0..=SKY_ROWS / 2).map(at).sum::<f64>();
+        assert!((irradiance / PI - 1.0).abs() < 1e-3, "{irradiance}");
     }
 
     #[test]

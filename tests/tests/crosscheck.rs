@@ -257,6 +257,7 @@ fn wrong_calls_are_told_apart_from_machines_without_mitsuba() {
         ("glass.xml --against ref.exr --against-variance none.exr", "none.exr"),
         ("glass.xml --against plain.exr --against-variance plain.exr", "--layers beauty.variance"),
         ("glass.xml --size 32x32 --against ref.exr --against-variance ref.exr", "64x64"),
+        ("glass.xml --camera none --against ref.exr --against-variance ref.exr", "--camera"),
         ("none.xml --against ref.exr --against-variance ref.exr", "none.xml"),
         ("glass.xml --against ref.exr --against-variance ref.exr -o glass.xml/below", "glass.xml"),
     ] {
@@ -266,10 +267,56 @@ fn wrong_calls_are_told_apart_from_machines_without_mitsuba() {
     }
 }
 
+/// A Mitsuba whose fast variant renders the small scene that it is tried with, and dies of any other.
+#[cfg(unix)]
+const FRAIL: &str = r#"#!/bin/sh
+case "$3" in
+"") echo 3.9.1 ;;
+llvm_ad_rgb) exit 0 ;;
+*llvm_ad_rgb*) kill -9 $$ ;;
+*)
+    echo '{"size": [64, 64], "version": "3.9.1", "notes": []}'
+    while read -r order; do
+        path=$(echo "$order" | sed 's/.*"path":"\([^"]*\)".*/\1/')
+        head -c 49152 /dev/zero > "$path"
+        echo '{}'
+    done
+    ;;
+esac
+"#;
+
+#[cfg(unix)]
+#[test]
+fn a_scene_that_the_fast_variant_dies_of_is_begun_again_with_the_sure_one() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let folder = glass();
+    let python = folder.path().join("python");
+    fs::write(&python, FRAIL).expect("writes");
+    fs::set_permissions(&python, fs::Permissions::from_mode(0o755)).expect("may be run");
+    let output = limpid()
+        .args(["crosscheck", "glass.xml", "--spp", "16", "--json"])
+        .env("LIMPID_MITSUBA_PYTHON", &python)
+        .env("XDG_CACHE_HOME", folder.path())
+        .current_dir(folder.path())
+        .output()
+        .expect("the program starts");
+    let call = Call::of(&output);
+    assert_eq!(call.code, 1, "its pictures are black: {}", call.stderr);
+    assert!(call.stderr.contains("trying scalar_rgb"), "{}", call.stderr);
+    let answer: Value = serde_json::from_str(&call.stdout).expect("is JSON");
+    assert_eq!(answer["scenes"][0]["other"], "Mitsuba 3.9.1 (scalar_rgb)");
+}
+
 #[test]
 fn mitsuba_agrees_on_the_ball() {
     let folder = folder();
-    let (call, answer) = crosscheck(folder.path(), "ball.xml --size 48x32 --power -o report");
+    // Another sensor before that of the ball, which is asked for by its name.
+    let file = folder.path().join("ball.xml");
+    let ball = fs::read_to_string(&file).expect("reads");
+    let other = r#"<sensor type="perspective" id="other"/><sensor type="perspective" id="eye""#;
+    fs::write(&file, ball.replace(r#"<sensor type="perspective" id="eye""#, other)).expect("writes");
+    let (call, answer) = crosscheck(folder.path(), "ball.xml --camera eye --size 48x32 --power -o report");
     if call.code == 3 {
         println!("skipped: no mitsuba");
         return;

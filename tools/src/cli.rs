@@ -58,7 +58,7 @@ pub enum Command {
 /// `limpid render`
 #[derive(Args, Debug)]
 pub struct Render {
-    /// Scene file: Mitsuba XML.
+    /// Scene file: Mitsuba XML, glTF (.gltf, .glb), OBJ.
     pub scene: PathBuf,
     #[command(flatten)]
     pub reading: Reading,
@@ -133,7 +133,7 @@ pub struct Render {
 /// `limpid crosscheck`
 #[derive(Args, Debug)]
 pub struct Crosscheck {
-    /// Scene files: Mitsuba XML.
+    /// Scene files: Mitsuba XML, glTF (.gltf, .glb), OBJ.
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<PathBuf>,
     #[command(flatten)]
@@ -141,6 +141,9 @@ pub struct Crosscheck {
     /// Size of the pictures in pixels [default: the scene's]. The smaller, the sooner it is known.
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub size: Option<[u32; 2]>,
+    /// Camera to compare, where the scene has several [default: its first].
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
     /// Samples per pixel of each picture [default: the scene's; with --power 64 to begin with].
     #[arg(long, value_name = "N", value_parser = values::spp, allow_negative_numbers = true)]
     pub spp: Option<u32>,
@@ -239,7 +242,7 @@ pub struct Metrics {
 /// `limpid export`
 #[derive(Args, Debug)]
 pub struct Export {
-    /// Scene file: Mitsuba XML.
+    /// Scene file: Mitsuba XML, glTF (.gltf, .glb), OBJ.
     pub scene: PathBuf,
     /// File to write; meshes and pictures go to OUT_files beside it.
     #[arg(short, required = true, value_name = "OUT.xml", value_parser = values::xml_path)]

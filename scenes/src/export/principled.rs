@@ -42,10 +42,12 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Base, metal and transmission; a coat of constant roughness; no sheen, and no colour of the reflection.
+    /// Base, metal and transmission; a coat of constant roughness; no sheen, and no colour of the reflection. The weight of
+    /// the reflection is that at normal incidence, as an index, where that bends no light and is no factor of metal.
     pub(super) fn gltf(&mut self, p: &GltfMaterial) -> Result<(), ExportError> {
         self.notes.push(
-            "the glTF material is written as Mitsuba's principled: sheen and the specular weight and colour are left out, the coat differs"
+            "the glTF material is written as Mitsuba's principled: sheen and the specular colour are left out, the coat differs; \
+             docs/mitsuba.md measures how far they are apart"
                 .into(),
         );
         if p.attenuation.is_some() {
@@ -60,6 +62,13 @@ impl Writer<'_> {
                 ..PrincipledThin::default()
             });
         }
+        let eta = match (p.specular, p.metallic, p.transmission) {
+            (Scalar::Constant(weight), Scalar::Constant(0.0), Scalar::Constant(0.0)) if weight < 1.0 => {
+                let r = weight.max(0.0).sqrt() * (p.ior - 1.0) / (p.ior + 1.0);
+                (1.0 + r) / (1.0 - r)
+            }
+            _ => p.ior,
+        };
         // Mitsuba's coat has a width of 0.1 − 0.099 gloss.
         let gloss = match p.clearcoat_roughness {
             Scalar::Constant(roughness) => ((0.1 - roughness * roughness) / 0.099).clamp(0.0, 1.0),
@@ -70,7 +79,7 @@ impl Writer<'_> {
             roughness: p.roughness,
             metallic: p.metallic,
             spec_trans: p.transmission,
-            eta: p.ior,
+            eta,
             clearcoat: p.clearcoat,
             clearcoat_gloss: Scalar::Constant(gloss),
             ..Principled::default()

@@ -147,7 +147,7 @@ fn what_shines_needs_no_sky() {
     assert!(scene.lights.is_empty());
     let (scene, _) = kinds("Ke 0 0 0\n");
     assert!(scene.shapes[0].emission.is_none());
-    assert!(matches!(scene.lights[0].kind, LightKind::Constant { .. }));
+    assert!(matches!(scene.lights[0].kind, LightKind::EnvMap { .. }));
 }
 
 #[test]

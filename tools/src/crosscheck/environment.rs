@@ -19,7 +19,7 @@ const VARIABLE: &str = "LIMPID_MITSUBA_PYTHON";
 /// Compiled for this processor while it runs, and much faster; but its LLVM may crash the process.
 const FAST: &str = "llvm_ad_rgb";
 /// Works everywhere.
-const SURE: &str = "scalar_rgb";
+pub const SURE: &str = "scalar_rgb";
 
 /// A Python that renders with Mitsuba.
 pub struct Environment {

@@ -7,7 +7,6 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use serde_json::{Value, json};
 
-use super::environment::Environment;
 use crate::cli::{Common, Crosscheck};
 use crate::error::CliError;
 
@@ -36,8 +35,10 @@ impl Mitsuba {
     ///
     /// Where Mitsuba refuses the scene, or cannot be run.
     pub fn start(
-        environment: &Environment,
+        python: &Path,
+        variant: &str,
         scene: &Path,
+        camera: usize,
         options: &Crosscheck,
         common: &Common,
     ) -> Result<Self, CliError> {
@@ -46,19 +47,20 @@ impl Mitsuba {
         let said = File::create(folder.path().join("said")).map_err(|error| broken(error.to_string()))?;
         let job = json!({
             "scene": fs::canonicalize(scene).unwrap_or_else(|_| scene.to_owned()),
-            "variant": environment.variant,
+            "variant": variant,
+            "camera": camera,
             "size": options.size,
             "defines": options.reading.defines,
             "threads": common.threads.unwrap_or(0),
         });
-        let mut child = Command::new(&environment.python)
+        let mut child = Command::new(python)
             .args(["-c", include_str!("render.py")])
             .arg(job.to_string())
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(said)
             .spawn()
-            .map_err(|error| broken(format!("{}: {error}", environment.python.display())))?;
+            .map_err(|error| broken(format!("{}: {error}", python.display())))?;
         let orders = child.stdin.take();
         let answers = BufReader::new(child.stdout.take().expect("standard output is piped"));
         let mut mitsuba =

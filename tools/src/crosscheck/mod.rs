@@ -24,7 +24,7 @@ use crate::cli::{Common, Crosscheck};
 use crate::error::CliError;
 use crate::progress::with_spinner;
 use crate::{export, output, words};
-use environment::Environment;
+use environment::{Environment, SURE};
 use mitsuba::Mitsuba;
 use ours::Ours;
 use report::About;
@@ -121,7 +121,7 @@ fn check(
     let size = ours.size();
     let spp = options.spp.unwrap_or(if options.power { FIRST_ROUND } else { ours.spp });
     let warnings = std::mem::take(&mut ours.warnings);
-    let splat = ours.splat;
+    let (splat, camera) = (ours.splat, ours.camera);
     let seed = options.seed;
     let mut our_pass = |pass: u32, spp: u32| {
         let seed = seed << 32 | u64::from(pass); // passes of one seed and of another never meet
@@ -148,27 +148,43 @@ fn check(
         }
         (Some(environment), ..) => {
             let ForMitsuba { file, notes: of_export, _folder } = for_mitsuba(scene, options)?;
-            let load = || Mitsuba::start(environment, &file, options, common);
-            let mut mitsuba = with_spinner(common, "Mitsuba reads the scene", load)?;
-            if mitsuba.size != size {
-                let [[w, h], [x, y]] = [size, mitsuba.size];
-                let problem = format!(
-                    "limpid reads a film of {w}x{h} pixels, Mitsuba one of {x}x{y}; set one with `--size`"
+            let mut with = |variant: &str, notes: &[String]| {
+                let load = || Mitsuba::start(&environment.python, variant, &file, camera, options, common);
+                let mut mitsuba = with_spinner(common, "Mitsuba reads the scene", load)?;
+                if mitsuba.size != size {
+                    let [[w, h], [x, y]] = [size, mitsuba.size];
+                    let problem = format!(
+                        "limpid reads a film of {w}x{h} pixels, Mitsuba one of {x}x{y}; set one with `--size`"
+                    );
+                    return Err(CliError::File { path: scene.to_owned(), problem });
+                }
+                let mut notes = notes.to_vec();
+                notes.append(&mut mitsuba.notes);
+                notes.iter().for_each(|note| words::note(common, format_args!("note: {note}")));
+                let other = format!("Mitsuba {} ({variant})", mitsuba.version);
+                notes.insert(
+                    0,
+                    "both use a box filter and independent samples, whatever the file names".into(),
                 );
-                return Err(CliError::File { path: scene.to_owned(), problem });
-            }
-            let mut notes = of_export;
-            notes.append(&mut mitsuba.notes);
-            notes.iter().for_each(|note| words::note(common, format_args!("note: {note}")));
-            let other = format!("Mitsuba {} ({})", mitsuba.version, environment.variant);
-            notes.insert(0, "both use a box filter and independent samples, whatever the file names".into());
-            let mut their_pass = |pass: u32, spp: u32| {
-                let seed = (seed as u32).wrapping_mul(1009).wrapping_add(pass);
-                with_spinner(common, "rendering with Mitsuba", || mitsuba.pass(&file, seed, spp))
+                let mut their_pass = |pass: u32, spp: u32| {
+                    let seed = (seed as u32).wrapping_mul(1009).wrapping_add(pass);
+                    with_spinner(common, "rendering with Mitsuba", || mitsuba.pass(&file, seed, spp))
+                };
+                let theirs = Theirs::Renders(&mut their_pass);
+                let outcome = rounds::run(size, spp, options.power, &mut our_pass, theirs, &mut tell)?;
+                Ok((outcome, other, notes))
             };
-            let theirs = Theirs::Renders(&mut their_pass);
-            let outcome = rounds::run(size, spp, options.power, &mut our_pass, theirs, &mut tell)?;
-            (outcome, other, notes)
+            match with(&environment.variant, &of_export) {
+                // Its LLVM may fail at this scene, though not at the one that it was tried with.
+                Err(CliError::Mitsuba { problem, .. }) if environment.variant != SURE => {
+                    words::note(
+                        common,
+                        format_args!("note: Mitsuba: {problem}; trying {SURE}, which is slower"),
+                    );
+                    with(SURE, &of_export)?
+                }
+                done => done?,
+            }
         }
         _ => unreachable!("`--against` comes with its variance, and without it Mitsuba runs"),
     };
@@ -261,7 +277,7 @@ fn table(scene: &Path, folder: Option<&Path>, done: &Checked) -> String {
     let mut lines = vec![
         format!("{} beside {}", scene.display(), done.other),
         format!("  {:<18} {}", "answer", Verdict::of(&done.outcome).word().to_lowercase()),
-        format!("  {:<18} {:+.3} %", "limpid brighter by", 100.0 * (comparison.mean_ratio - 1.0)),
+        format!("  {:<18} {}", "limpid is", verdict::brightness(comparison.mean_ratio)),
         format!("  {:<18} {}", "would show from", verdict::percent(comparison.detectable_bias)),
         format!("  {:<18} {} (an alarm below 0.01)", "p", verdict::number(comparison.p)),
         format!("  {:<18} {} in {} places", "samples per pixel", done.outcome.spp, comparison.blocks),

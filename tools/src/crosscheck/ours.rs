@@ -22,6 +22,8 @@ pub struct Ours {
     pub splat: Splat,
     /// Samples per pixel that the file asks for.
     pub spp: u32,
+    /// Which of the scene's cameras it is.
+    pub camera: usize,
     /// Warnings of the reader: what limpid does not honour is often where pictures differ.
     pub warnings: Vec<String>,
 }
@@ -34,16 +36,13 @@ impl Ours {
     /// Where the scene cannot be read or rendered, or is too large for the memory.
     pub fn new(path: &Path, options: &Crosscheck, common: &Common) -> Result<Self, CliError> {
         let mut scene = scene::load(path, &options.reading, common)?;
-        if scene.cameras.is_empty() {
-            let problem = "the scene has no camera; add a sensor".into();
-            return Err(CliError::File { path: path.to_owned(), problem });
-        }
-        let splat = Splat::of(scene.cameras[0].film.filter);
+        let camera = scene::camera(&scene, options.camera.as_deref(), path)?;
+        let splat = Splat::of(scene.cameras[camera].film.filter);
         if options.against.is_none() {
             limpid_scenes::as_mitsuba(&mut scene);
-            scene.cameras[0].film.filter = PixelFilter::Box;
+            scene.cameras[camera].film.filter = PixelFilter::Box;
         }
-        let mut settings = Settings::for_camera(&scene, 0);
+        let mut settings = Settings::for_camera(&scene, camera);
         if let Some([width, height]) = options.size {
             (settings.width, settings.height, settings.crop) = (width, height, None);
         }
@@ -52,8 +51,8 @@ impl Ours {
         settings.threads = common.threads;
         let spp = settings.spp;
         let warnings = scene.warnings.iter().map(words::describe).collect();
-        let prepared = with_spinner(common, "preparing the scene", || Prepared::new(&scene, 0))?;
-        let ours = Self { prepared, settings, splat, spp, warnings };
+        let prepared = with_spinner(common, "preparing the scene", || Prepared::new(&scene, camera))?;
+        let ours = Self { prepared, settings, splat, spp, camera, warnings };
         let [width, height] = ours.size();
         let needed = width as u64 * height as u64 * BYTES_PER_PIXEL;
         if let Some(free) = system::available_memory_bytes().filter(|&free| needed > free) {

@@ -1,6 +1,6 @@
 """Renders passes of one scene with Mitsuba 3 for `limpid crosscheck`.
 
-    python render.py JOB        JOB: {"scene", "variant", "size": [w, h] | null, "defines": [[name, value]], "threads"}
+    python render.py JOB        JOB: {"scene", "variant", "camera", "size": [w, h] | null, "defines": [[name, value]], "threads"}
 
 The scene is the user's own file. Only what the comparison needs is changed in it: the box filter and the
 independent sampler make pixels independent, and the film has the size that was asked for.
@@ -70,9 +70,12 @@ def load(mi, job, notes):
         raise ValueError("the file is no scene")
     tree = Tree(mi, state)
     types = mi.ObjectType
-    sensor = tree.child(0, types.Sensor)
-    if sensor is None:
-        raise ValueError("the scene has no sensor")
+    sensors = [(name, child) for name, child in tree.nested(0) if state.nodes[child].type == types.Sensor]
+    if len(sensors) <= job["camera"]:
+        raise ValueError(f"the scene has {len(sensors)} sensors there" if sensors else "the scene has no sensor")
+    _, sensor = sensors.pop(job["camera"])
+    for name, _ in sensors:  # so that no doubt is left which one it renders
+        del tree.props(0)[name]
     tree.reduce(tree.ensure(sensor, types.Sampler, "sampler"), "independent", ["sample_count"])
     film = tree.ensure(sensor, types.Film, "film")
     tree.reduce(tree.ensure(film, types.ReconstructionFilter, "rfilter"), "box", [])

@@ -56,10 +56,9 @@ pub fn sentences(outcome: &Outcome) -> String {
             outcome.spp
         ),
         Verdict::Differ => format!(
-            "The pictures differ beyond noise (p = {} for all tests together): limpid is {:+.3} % brighter over the whole \
-             picture. {}",
+            "The pictures differ beyond noise (p = {} for all tests together): limpid is {} over the whole picture. {}",
             number(comparison.p),
-            100.0 * (comparison.mean_ratio - 1.0),
+            brightness(comparison.mean_ratio),
             clearest(outcome),
         ),
         Verdict::Open => format!(
@@ -131,6 +130,12 @@ pub fn percent(fraction: f64) -> String {
         0.0 => "0 %".into(),
         v => format!("{v:.1e} %"),
     }
+}
+
+/// How limpid's mean, over the other's, is to be called.
+pub fn brightness(ratio: f64) -> String {
+    let percent = 100.0 * (ratio - 1.0);
+    format!("{:.3} % {}", percent.abs(), if percent < 0.0 { "darker" } else { "brighter" })
 }
 
 /// A number with three digits that count.

@@ -38,7 +38,7 @@ pub fn run(options: &Render, common: &Common) -> Result<(), CliError> {
     }
     seconds.load = begin.elapsed().as_secs_f64();
 
-    let camera = settings::camera(&scene, options)?;
+    let camera = scene::camera(&scene, options.camera.as_deref(), &options.scene)?;
     let needs = denoising.as_ref().map_or_else(LayerRequest::default, Denoising::needs);
     let settings = settings::of(&scene, camera, options, &needs, common)?;
     let begin = Instant::now();

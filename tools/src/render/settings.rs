@@ -12,25 +12,6 @@ use crate::{system, words};
 /// Memory for the samples of one tile, with `--records`, in bytes.
 const RECORD_MEMORY: usize = 64 << 20;
 
-/// The index of the camera to render.
-pub fn camera(scene: &Scene, options: &Render) -> Result<usize, CliError> {
-    let Some(name) = &options.camera else {
-        if scene.cameras.is_empty() {
-            let problem = "the scene has no camera; add a sensor".into();
-            return Err(CliError::File { path: options.scene.clone(), problem });
-        }
-        return Ok(0);
-    };
-    scene.cameras.iter().position(|camera| camera.name == *name).ok_or_else(|| {
-        let known: Vec<&str> = scene.cameras.iter().map(|camera| camera.name.as_str()).collect();
-        CliError::option(
-            "--camera",
-            name,
-            format!("the scene has no such camera; it has {}", known.join(", ")),
-        )
-    })
-}
-
 /// The scene's settings for its camera, changed by the options; `needs` are a denoiser's layers.
 ///
 /// # Errors

@@ -175,7 +175,7 @@ fn emission_has_its_strength_and_unlit_surfaces_emit_their_colour() {
         kinds(&scene)[..],
         [MaterialKind::Diffuse { reflectance: Color::Constant([0.0, 0.0, 0.0]) }]
     ));
-    assert!(matches!(scene.lights[0].kind, LightKind::Constant { .. }));
+    assert!(matches!(scene.lights[0].kind, LightKind::EnvMap { .. }));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use base64::engine::general_purpose::STANDARD;
 use limpid_frame::compare::{Family, Finding, Parts};
 
 use super::super::rounds::{Outcome, TARGET};
-use super::super::verdict::{Verdict, number, parts_in_words, percent};
+use super::super::verdict::{Verdict, brightness, number, parts_in_words, percent};
 use super::About;
 
 /// Places that are listed.
@@ -45,7 +45,7 @@ pub fn page(about: &About, outcome: &Outcome, shown: &Shown) -> String {
         ("WIDTH", width.to_string()),
         ("HEIGHT", height.to_string()),
         ("SPP", outcome.spp.to_string()),
-        ("RATIO", format!("{:+.3} %", 100.0 * (comparison.mean_ratio - 1.0))),
+        ("RATIO", brightness(comparison.mean_ratio)),
         ("REACH", percent(comparison.detectable_bias)),
         ("TARGET", percent(TARGET)),
         ("P", number(comparison.p)),
@@ -74,13 +74,13 @@ pub fn index(rows: &[(String, String, Verdict, f64, f64, f64)]) -> String {
     for (scene, folder, verdict, ratio, reach, p) in rows {
         let _ = write!(
             table,
-            "<tr class=\"{}\"><td><a href=\"{}/index.html\">{}</a></td><td><b>{}</b></td><td>{:+.3} %</td><td>{}</td>\
+            "<tr class=\"{}\"><td><a href=\"{}/index.html\">{}</a></td><td><b>{}</b></td><td>{}</td><td>{}</td>\
              <td>{}</td></tr>",
             verdict.class(),
             escaped(folder),
             escaped(scene),
             verdict.word(),
-            100.0 * (ratio - 1.0),
+            brightness(*ratio),
             percent(*reach),
             number(*p),
         );
