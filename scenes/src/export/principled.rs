@@ -1,7 +1,7 @@
 //! `principled` and `principledthin`, also as the nearest that Mitsuba has to glTF's material.
 
 use super::{ExportError, Writer};
-use crate::{GltfMaterial, Principled, PrincipledThin, Scalar};
+use crate::{Color, GltfMaterial, Principled, PrincipledThin, Scalar};
 
 impl Writer<'_> {
     pub(super) fn principled(&mut self, p: &Principled) -> Result<(), ExportError> {
@@ -74,8 +74,15 @@ impl Writer<'_> {
             Scalar::Constant(roughness) => ((0.1 - roughness * roughness) / 0.099).clamp(0.0, 1.0),
             Scalar::Texture(_) => 0.0,
         };
+        // All of it goes through, and there Mitsuba takes the root of the colour.
+        let base_color = match (p.base_color, p.metallic, p.transmission) {
+            (Color::Constant(color), Scalar::Constant(0.0), Scalar::Constant(1.0)) => {
+                Color::Constant(color.map(|c| c * c))
+            }
+            (color, ..) => color,
+        };
         self.principled(&Principled {
-            base_color: p.base_color,
+            base_color,
             roughness: p.roughness,
             metallic: p.metallic,
             spec_trans: p.transmission,
