@@ -46,7 +46,7 @@ struct Sides {
     front: Side,
     back: Side,
     needs_tangent: bool,
-    /// Of the inside.
+    /// Of the inside; `None` where there is none.
     absorption: Option<Absorption>,
 }
 
@@ -155,7 +155,7 @@ impl Materials {
         !front.holes.is_empty() || !back.holes.is_empty()
     }
 
-    /// What the inside of the material absorbs.
+    /// What the inside of the material absorbs; `None` where it has none.
     #[inline]
     pub fn absorption(&self, material: MaterialId) -> Option<&Absorption> {
         self.materials[material.0 as usize].absorption.as_ref()
@@ -163,7 +163,7 @@ impl Materials {
 
     /// Whether the inside of any material absorbs.
     pub fn absorb(&self) -> bool {
-        self.materials.iter().any(|sides| sides.absorption.is_some())
+        self.materials.iter().any(|sides| sides.absorption.is_some_and(|inside| inside.color != Rgb::ONE))
     }
 
     /// Share of the light that goes straight through, in [0, 1].
@@ -271,13 +271,20 @@ impl Materials {
 }
 
 impl Model {
-    /// What its inside absorbs.
+    /// What its inside absorbs; `None` where it has no inside.
     fn absorption(&self) -> Option<Absorption> {
-        let Self::Gltf(limpid_scenes::GltfMaterial { attenuation: Some((distance, color)), .. }) = self
-        else {
-            return None;
-        };
-        Some(Absorption { color: Rgb::from_array(*color), distance: *distance })
+        const CLEAR: Absorption = Absorption { color: Rgb::ONE, distance: 1.0 };
+        match self {
+            Self::Gltf(p) if !p.thin && p.transmits() => {
+                Some(p.attenuation.map_or(CLEAR, |(distance, color)| Absorption {
+                    color: Rgb::from_array(color),
+                    distance,
+                }))
+            }
+            Self::Dielectric { .. } | Self::RoughDielectric { .. } => Some(CLEAR),
+            Self::Principled(p) if p.spec_trans != Scalar::Constant(0.0) => Some(CLEAR),
+            _ => None,
+        }
     }
 
     fn is_anisotropic(&self) -> bool {

@@ -107,7 +107,7 @@ impl Batch {
     fn connect(&mut self, cx: &Context) {
         self.shares.resize(self.connections.len(), 1.0);
         if cx.scene.has_holes {
-            through_holes(cx, &self.connections, &mut self.shares, &mut self.counters);
+            through_holes(cx, &mut self.connections, &mut self.shares, &mut self.counters);
         } else {
             self.shadow_rays.clear();
             self.shadow_rays.extend(self.connections.iter().map(|c| c.ray));
@@ -119,7 +119,7 @@ impl Batch {
             }
         }
         for ((&i, connection), &share) in self.connected.iter().zip(&self.connections).zip(&self.shares) {
-            connect(&mut self.paths[i as usize], connection, share, &mut self.samples[i as usize]);
+            connect(cx, &mut self.paths[i as usize], connection, share, &mut self.samples[i as usize]);
         }
     }
 
@@ -195,15 +195,15 @@ pub fn depth_first(cx: &Context, pixel: [u32; 2], index: u32) -> Sample {
         emit(cx, &mut path, &ray, surface.as_ref(), &mut counters);
         let Some(surface) = surface else { break };
         let scattered = shade(cx, &mut path, &ray, &surface, &mut sample, &mut counters);
-        if let Some(connection) = scattered.connection {
+        if let Some(mut connection) = scattered.connection {
             let mut share = [1.0];
             if cx.scene.has_holes {
-                through_holes(cx, &[connection], &mut share, &mut counters);
+                through_holes(cx, std::slice::from_mut(&mut connection), &mut share, &mut counters);
             } else {
                 cx.scene.accel.occluded(&[connection.ray], &mut blocked);
                 share[0] = if blocked[0] { 0.0 } else { 1.0 };
             }
-            connect(&mut path, &connection, share[0], &mut sample);
+            connect(cx, &mut path, &connection, share[0], &mut sample);
         }
         match scattered.next {
             Some(next) if survive(cx, &mut path) => ray = next,

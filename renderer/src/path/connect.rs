@@ -1,5 +1,6 @@
 //! Light samples, as far as their way is free.
 
+use super::absorb::leave_by_hole;
 use super::{Connection, Context, Path};
 use crate::accel::{Hit, NONE, Ray};
 use crate::effects::Counters;
@@ -7,12 +8,16 @@ use crate::film::Sample;
 
 /// Adds a light sample to its path. `share`: how much of the light gets through.
 #[inline]
-pub fn connect(path: &mut Path, connection: &Connection, share: f32, features: &mut Sample) {
+pub fn connect(cx: &Context, path: &mut Path, connection: &Connection, share: f32, features: &mut Sample) {
     if connection.at_feature {
         features.set_visibility(share);
     }
     if share > 0.0 {
-        path.gather(connection.through * share, connection.radiance);
+        let mut radiance = connection.radiance;
+        if cx.scene.has_absorption {
+            radiance *= connection.inside.left(cx, connection.ray.t_max - connection.from);
+        }
+        path.gather(connection.through * share, radiance);
     }
 }
 
@@ -21,7 +26,12 @@ const MOST_HOLES: u32 = 1000;
 
 /// How much light gets along each connection in a scene whose surfaces have holes. A hole counts as an edge of the path,
 /// as it does for rays that scattering sends through it.
-pub fn through_holes(cx: &Context, connections: &[Connection], shares: &mut [f32], counters: &mut Counters) {
+pub fn through_holes(
+    cx: &Context,
+    connections: &mut [Connection],
+    shares: &mut [f32],
+    counters: &mut Counters,
+) {
     shares.fill(1.0);
     let mut queue: Vec<usize> = (0..connections.len()).collect();
     let mut rays: Vec<Ray> = connections.iter().map(|c| c.ray).collect();
@@ -43,6 +53,9 @@ pub fn through_holes(cx: &Context, connections: &[Connection], shares: &mut [f32
             shares[i] = share;
             if share > 0.0 {
                 counters.alpha += 1;
+                if cx.scene.has_absorption {
+                    leave_by_hole(cx, &mut connections[i], &surface);
+                }
                 let next = Ray { t_max: ray.t_max - hit.t, skip: ray.skip, ..surface.spawn(ray.d) };
                 (queue[kept], rays[kept]) = (i, next);
                 kept += 1;

@@ -3,6 +3,7 @@
 use glam::{DVec2, Vec2};
 use limpid_frame::Layer;
 
+use super::absorb::Inside;
 use super::{Context, Path};
 use crate::accel::Ray;
 use crate::color::{Rgb, Split};
@@ -28,7 +29,7 @@ pub fn generate(cx: &Context, pixel: [u32; 2], index: u32, features: &mut Sample
         edges: 1,
         eta_scale: 1.0,
         delta: true,
-        inside: None,
+        inside: Inside::default(),
         split: false,
         straight: false,
         present: false,

@@ -18,12 +18,13 @@ mod shade;
 mod survive;
 
 use glam::Vec3;
-use limpid_scenes::MaterialId;
 
 #[cfg(test)]
 pub use batch::depth_first;
 pub use batch::{Batch, accumulate, trace};
 pub use shade::Scattering;
+
+use absorb::Inside;
 
 use crate::accel::Ray;
 use crate::camera::Camera;
@@ -64,8 +65,8 @@ pub struct Path {
     pub eta_scale: f32,
     /// The current direction was drawn from a delta lobe, or is the camera's: no light sample stands for it.
     pub delta: bool,
-    /// What the current ray goes through, where that absorbs.
-    pub inside: Option<MaterialId>,
+    /// What the current ray goes through.
+    pub inside: Inside,
     /// A non-delta vertex has been met.
     pub split: bool,
     /// The last event let the path go straight on: a hole in a surface, which counts as no vertex.
@@ -104,8 +105,11 @@ pub struct Connection {
     pub ray: Ray,
     /// Throughput to the vertex, times f · cos / pdf and the MIS weight.
     pub through: Split,
-    /// Emitted towards the vertex.
+    /// Emitted towards the vertex; what is absorbed beyond the distance `from` is still in it.
     pub radiance: Rgb,
+    /// What the ray goes through from the distance `from` on.
+    pub inside: Inside,
+    pub from: f32,
     /// Of the path that ends at the light.
     pub edges: u32,
     /// The vertex is the feature hit.

@@ -4,7 +4,7 @@ use glam::Vec3;
 use limpid_frame::Layer;
 use limpid_scenes::NormalMap;
 
-use super::absorb::{inside, left};
+use super::absorb::material;
 use super::{Connection, Context, Path, mis_weight};
 use crate::accel::{NONE, Ray};
 use crate::bsdf::Lobes;
@@ -52,6 +52,9 @@ pub fn shade(
             return nothing;
         }
         path.edges += 1;
+        if scene.has_absorption && surface.ng.dot(ray.d) > 0.0 {
+            path.inside.leave(material(cx, surface));
+        }
         return Scattered { connection: None, next: Some(surface.spawn(ray.d)) };
     }
     path.present = true;
@@ -86,16 +89,16 @@ pub fn shade(
             if !value.f_cos.is_zero() && light.radiance != Rgb::ZERO {
                 let partner = if light.delta { 0.0 } else { value.pdf };
                 let weight = mis_weight(light.pdf, partner) / light.pdf;
-                let mut radiance = light.radiance;
-                if scene.has_absorption {
-                    let inside =
-                        if wi.z * wo.z < 0.0 { inside(cx, surface, wo.z > 0.0) } else { path.inside };
-                    radiance *= left(cx, inside, light.t_max);
+                let mut inside = path.inside;
+                if scene.has_absorption && wi.z * wo.z < 0.0 {
+                    inside.cross(cx, material(cx, surface), wo.z > 0.0);
                 }
                 connection = Some(Connection {
                     ray: Ray { t_max: light.t_max, skip: light.skip, ..surface.spawn(light.wi) },
                     through: through(path, value.f_cos * weight),
-                    radiance,
+                    radiance: light.radiance,
+                    inside,
+                    from: 0.0,
                     edges: path.edges + 1,
                     at_feature,
                 });
@@ -126,7 +129,9 @@ pub fn shade(
     path.p = surface.p;
     if sample.wi.z * wo.z < 0.0 {
         counters.transmission += 1;
-        path.inside = if scene.has_absorption { inside(cx, surface, wo.z > 0.0) } else { None };
+        if scene.has_absorption {
+            path.inside.cross(cx, material(cx, surface), wo.z > 0.0);
+        }
     }
     Scattered { connection, next: Some(surface.spawn(frame.to_render(sample.wi).normalize())) }
 }
