@@ -114,6 +114,13 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
+    /// Says once what differs.
+    fn note(&mut self, what: &str) {
+        if !self.notes.iter().any(|note| note == what) {
+            self.notes.push(what.into());
+        }
+    }
+
     fn integrator(&mut self) {
         let integrator = &self.scene.integrator;
         let aovs = integrator.aovs.iter().map(|aov| match aov {

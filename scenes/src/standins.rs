@@ -42,13 +42,20 @@ pub(crate) fn complete(scene: &mut Scene, has_lamp: bool, place: &Place) {
     if scene.cameras.is_empty() {
         let message = "no camera; one with a view of 45 degrees that sees everything stands in";
         scene.warnings.push(warning(message));
-        let world_from_camera = framing(bounds(&scene.shapes), f64::from(SIZE[0]) / f64::from(SIZE[1]));
+        let bounds = bounds(&scene.shapes);
+        let world_from_camera = framing(bounds, f64::from(SIZE[0]) / f64::from(SIZE[1]));
         let projection = Projection::Perspective {
             fov_deg: FOV_DEG,
             fov_axis: FovAxis::Y,
             principal_point_offset: [0.0; 2],
         };
-        scene.cameras.push(camera("camera 1".into(), world_from_camera, projection, SIZE, place.clone()));
+        let mut camera = camera("camera 1".into(), world_from_camera, projection, SIZE, place.clone());
+        // For renderers whose cameras see less: everything lies well within.
+        let distance = world_from_camera.w_axis.truncate().distance(0.5 * bounds[0] + 0.5 * bounds[1]);
+        if distance > 0.0 && distance.is_finite() {
+            (camera.near_clip, camera.far_clip) = (Some(1e-3 * distance), Some(1e3 * distance));
+        }
+        scene.cameras.push(camera);
     }
     if scene.lights.is_empty() && !has_lamp {
         scene.warnings.push(warning("no light; an overcast sky stands in"));

@@ -37,6 +37,15 @@ impl Call {
     }
 }
 
+/// Whether a `crosscheck` says that there is no Mitsuba here, which is printed. One that died does not count as missing.
+pub fn lacks_mitsuba(call: &Call) -> bool {
+    let lacks = call.code == 3 && !call.stderr.contains("it died");
+    if lacks {
+        println!("skipped: no mitsuba: {}", call.stderr.trim());
+    }
+    lacks
+}
+
 /// Calls the program in `folder`.
 pub fn call<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = A>) -> Call {
     let output = limpid().args(arguments).current_dir(folder).output().expect("the program starts");

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use limpid_frame::{Frame, read_exr, write_exr};
-use limpid_tests::start::{Call, call, cornell_box, done, folder, limpid, names_in};
+use limpid_tests::start::{Call, call, cornell_box, done, folder, lacks_mitsuba, limpid, names_in};
 use serde_json::Value;
 
 /// A glass ball before a checkered wall on a grey floor, under a lamp and a faint sky.
@@ -317,8 +317,7 @@ fn mitsuba_agrees_on_the_ball() {
     let other = r#"<sensor type="perspective" id="other"/><sensor type="perspective" id="eye""#;
     fs::write(&file, ball.replace(r#"<sensor type="perspective" id="eye""#, other)).expect("writes");
     let (call, answer) = crosscheck(folder.path(), "ball.xml --camera eye --size 48x32 --power -o report");
-    if call.code == 3 {
-        println!("skipped: no mitsuba");
+    if lacks_mitsuba(&call) {
         return;
     }
     assert_eq!(call.code, 0, "{} {answer}", call.stderr);

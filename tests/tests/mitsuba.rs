@@ -8,7 +8,7 @@
 
 use std::path::{Path, PathBuf};
 
-use limpid_tests::start::call;
+use limpid_tests::start::{call, lacks_mitsuba};
 use limpid_tests::table::{self, Row};
 use serde_json::Value;
 
@@ -17,8 +17,7 @@ fn crosschecked(folder: &Path, scenes: &[PathBuf]) -> Option<Vec<Value>> {
     let mut words: Vec<String> = ["crosscheck", "--power", "--json"].map(String::from).to_vec();
     words.extend(scenes.iter().map(|path| path.display().to_string()));
     let call = call(folder, words);
-    if call.code == 3 {
-        println!("skipped: no mitsuba: {}", call.stderr.trim());
+    if lacks_mitsuba(&call) {
         return None;
     }
     assert!(call.code == 0 || call.code == 1, "exit code {}: {}", call.code, call.stderr);
@@ -31,7 +30,10 @@ fn check(rows: Vec<(Row, PathBuf)>, folder: &Path) {
     let (mut lines, mut failed) = (Vec::new(), Vec::new());
     let (mut blocks, mut reach) = (0, 0.0f64);
     for (row, path) in &rows {
-        let Some(found) = crosschecked(folder, std::slice::from_ref(path)) else { return };
+        let Some(found) = crosschecked(folder, std::slice::from_ref(path)) else {
+            assert!(lines.is_empty(), "{}: Mitsuba rendered the rows before it", row.name);
+            return;
+        };
         let found = &found[0];
         let number = |key: &str| found[key].as_f64().unwrap_or(f64::NAN);
         let line = format!(

@@ -80,8 +80,10 @@ pub(super) fn test(
         p: 1.0,
         detectable: 0.0,
     };
+    let light = finding.brightness();
     if var <= 0.0 {
         finding.p = if beyond == 0.0 { 1.0 } else { 0.0 };
+        finding.detectable = if light > 0.0 { rounding } else { f64::INFINITY };
         return finding;
     }
     // Welch and Satterthwaite, in shares of the variance, whose squares cannot underflow.
@@ -102,7 +104,6 @@ pub(super) fn test(
             (true, true) => p(0.0),
         };
     }
-    let light = finding.brightness();
     let reach = (quantiles.two_sided(finding.dof) + normal_quantile(POWER)) * error;
     finding.detectable = if light > 0.0 { rounding + reach / light } else { f64::INFINITY };
     finding

@@ -45,13 +45,13 @@ impl Writer<'_> {
     /// Base, metal and transmission; a coat of constant roughness; no sheen, and no colour of the reflection. The weight of
     /// the reflection is that at normal incidence, as an index, where that bends no light and is no factor of metal.
     pub(super) fn gltf(&mut self, p: &GltfMaterial) -> Result<(), ExportError> {
-        self.notes.push(
-            "the glTF material is written as Mitsuba's principled: sheen and the specular colour are left out, the coat differs; \
-             docs/mitsuba.md measures how far they are apart"
-                .into(),
+        self.note(
+            "glTF's material is written as Mitsuba's principled: sheen and the specular colour are left out, and the weight of \
+             the reflection where metal or transmission is mixed in; the coat differs; docs/mitsuba.md measures how far they \
+             are apart",
         );
         if p.attenuation.is_some() {
-            self.notes.push("what the inside of a glTF material absorbs is left out".into());
+            self.note("what the inside of a glTF material absorbs is left out");
         }
         if p.thin && p.transmits() {
             return self.principled_thin(&PrincipledThin {

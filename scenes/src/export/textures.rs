@@ -58,13 +58,6 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Notes something once.
-    fn note(&mut self, note: &str) {
-        if !self.notes.iter().any(|known| known == note) {
-            self.notes.push(note.into());
-        }
-    }
-
     /// The beginning of a `bitmap` texture.
     fn bitmap(
         &mut self,

@@ -102,10 +102,11 @@ impl Mitsuba {
         let read = self.answers.read_line(&mut line);
         let answer: Option<Value> = read.ok().and_then(|_| serde_json::from_str(&line).ok());
         match answer {
-            Some(answer) => match answer["error"].as_str() {
-                None => Ok(answer),
+            Some(answer) => match (answer["refused"].as_str(), answer["failed"].as_str()) {
+                (None, None) => Ok(answer),
+                (None, Some(problem)) => Err(broken(problem.to_owned())),
                 // Its own words: the place in the file, the plugin, and what it has against it.
-                Some(problem) => Err(CliError::File {
+                (Some(problem), _) => Err(CliError::File {
                     path: scene.to_owned(),
                     problem: format!(
                         "Mitsuba does not take this scene, so there is nothing to compare with: {problem}; \

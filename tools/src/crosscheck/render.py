@@ -5,9 +5,9 @@
 The scene is the user's own file. Only what the comparison needs is changed in it: the box filter and the
 independent sampler make pixels independent, and the film has the size that was asked for.
 
-Says one JSON object a line on standard output: first {"size", "version", "notes"}, then {} for every line
-{"seed", "spp", "path"} read from standard input, once the pass lies at `path` as raw 32-bit floats [h, w, 3].
-An {"error"} in their place ends it.
+Says one JSON object a line on standard output: first {"size", "version", "notes"}, or {"refused"} where it cannot load
+the scene; then {} for every line {"seed", "spp", "path"} read from standard input, once the pass lies at `path` as raw
+32-bit floats [h, w, 3], or {"failed"}, which ends it.
 """
 
 import json
@@ -35,7 +35,11 @@ def main(job):
         dr.set_thread_count(job["threads"])
 
     notes = []
-    scene = load(mi, job, notes)
+    try:
+        scene = load(mi, job, notes)
+    except Exception as error:  # whatever it is, the caller says it better than a traceback
+        answer(refused=f"{error}" or type(error).__name__)
+        sys.exit(1)
     width, height = (int(v) for v in scene.sensors()[0].film().crop_size())
     answer(size=[width, height], version=mi.__version__, notes=notes)
     # Without just-in-time compilation the pixels of a pass draw from the streams seed * pixels + i, where i counts the
@@ -159,6 +163,6 @@ def integrate(mi, tree, notes):
 if __name__ == "__main__":
     try:
         main(json.loads(sys.argv[1]))
-    except Exception as error:  # whatever it is, the caller says it better than a traceback
-        answer(error=f"{error}" or type(error).__name__)
+    except Exception as error:
+        answer(failed=f"{error}" or type(error).__name__)
         sys.exit(1)

@@ -134,8 +134,11 @@ pub fn percent(fraction: f64) -> String {
 
 /// How limpid's mean, over the other's, is to be called.
 pub fn brightness(ratio: f64) -> String {
-    let percent = 100.0 * (ratio - 1.0);
-    format!("{:.3} % {}", percent.abs(), if percent < 0.0 { "darker" } else { "brighter" })
+    match 100.0 * (ratio - 1.0) {
+        percent if percent.is_infinite() => "bright, where the other is black".into(),
+        percent if percent.is_nan() || percent.abs() < 5e-4 => "as bright".into(),
+        percent => format!("{:.3} % {}", percent.abs(), if percent < 0.0 { "darker" } else { "brighter" }),
+    }
 }
 
 /// A number with three digits that count.
@@ -155,6 +158,12 @@ mod tests {
     fn numbers_have_three_digits_that_count() {
         let shown = [0.0, 0.8, 0.00123456, -12.345, 123.456, 4567.8, 5.2e-7, 1e9].map(number);
         assert_eq!(shown, ["0", "0.800", "0.00123", "-12.3", "123", "4568", "5.2e-7", "1.0e9"]);
+        let shown = [0.98, 1.0012, 1.0, 1.0000049, f64::INFINITY, f64::NAN].map(brightness);
+        let same = "as bright";
+        assert_eq!(
+            shown,
+            ["2.000 % darker", "0.120 % brighter", same, same, "bright, where the other is black", same]
+        );
         let shown = [0.0, 0.00469, 0.125, 0.0123, 1e-6, f64::INFINITY].map(percent);
         assert_eq!(shown, ["0 %", "0.47 %", "12 %", "1.2 %", "1.0e-4 %", "any amount"]);
     }
