@@ -17,7 +17,6 @@ mod projector;
 mod rectangle;
 mod shape;
 mod sky;
-
 mod sphere;
 mod spot;
 mod sun;
