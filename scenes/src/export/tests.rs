@@ -1,3 +1,5 @@
+mod products;
+
 use std::fs;
 use std::path::Path;
 
