@@ -6,6 +6,7 @@ mod camera;
 mod lights;
 mod materials;
 mod principled;
+mod products;
 mod shapes;
 mod textures;
 mod xml;

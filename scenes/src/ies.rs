@@ -7,7 +7,7 @@ use std::ops::Range;
 pub struct IesProfile {
     /// Angles from the lamp's axis in degrees, rising, within [0, 180]. Nothing is sent beyond the first and the last.
     pub vertical_deg: Vec<f32>,
-    /// Angles around the axis in degrees, rising from 0 to 360.
+    /// Angles around the axis in degrees, rising; the last is the first once around, 360 more.
     pub horizontal_deg: Vec<f32>,
     /// Candelas at `[horizontal][vertical]`, not negative.
     pub candelas: Vec<f32>,
@@ -16,25 +16,44 @@ pub struct IesProfile {
 impl IesProfile {
     /// Candelas into a direction, its angles in degrees: bilinear in these.
     pub fn at(&self, vertical_deg: f64, horizontal_deg: f64) -> f64 {
+        let [Some(&first), Some(&last)] = [self.horizontal_deg.first(), self.horizontal_deg.last()] else {
+            return 0.0;
+        };
+        let around = f64::from(first) + (horizontal_deg - f64::from(first)).rem_euclid(360.0);
         let Some((v, t)) = cell(&self.vertical_deg, vertical_deg) else { return 0.0 };
-        let Some((h, s)) = cell(&self.horizontal_deg, horizontal_deg) else { return 0.0 };
+        let Some((h, s)) = cell(&self.horizontal_deg, around.min(last.into())) else { return 0.0 };
         let count = self.vertical_deg.len();
         let at = |h: usize, v: usize| f64::from(self.candelas[h * count + v.min(count - 1)]);
         let plane = |h| at(h, v) * (1.0 - t) + at(h, v + 1) * t;
         plane(h) * (1.0 - s) + plane(h + 1) * s
     }
 
-    /// Mean of the candelas over all directions, from steps of half a degree by five.
+    /// Mean of the candelas over all directions, 1/4π ∫∫ I sin θ dθ dφ: exact, since they are linear between the angles.
     pub fn mean(&self) -> f64 {
-        let mut sum = 0.0;
-        for row in 0..360 {
-            let from = 0.5 * f64::from(row);
-            let share = 0.5 * (from.to_radians().cos() - (from + 0.5).to_radians().cos());
-            let column = |i: u32| self.at(from + 0.25, 2.5 + 5.0 * f64::from(i));
-            sum += share * (0..72).map(column).sum::<f64>() / 72.0;
-        }
-        sum
+        let weights: Vec<[f64; 2]> = self.vertical_deg.windows(2).map(hat_integrals).collect();
+        let plane = |h: usize| -> f64 {
+            let candelas = self.candelas[h * self.vertical_deg.len()..].windows(2);
+            candelas.zip(&weights).map(|(c, w)| f64::from(c[0]) * w[0] + f64::from(c[1]) * w[1]).sum()
+        };
+        let widths = self.horizontal_deg.windows(2).map(|ends| f64::from(ends[1]) - f64::from(ends[0]));
+        widths.enumerate().map(|(h, width)| width / 360.0 * 0.25 * (plane(h) + plane(h + 1))).sum()
     }
+
+    /// Whether nothing is sent anywhere.
+    pub fn is_dark(&self) -> bool {
+        self.candelas.iter().all(|&candelas| candelas == 0.0)
+    }
+}
+
+/// ∫ (1 − t) sin θ dθ and ∫ t sin θ dθ from one angle to the next, in degrees, where t goes from 0 to 1.
+fn hat_integrals(ends: &[f32]) -> [f64; 2] {
+    let [a, b] = [ends[0], ends[1]].map(|angle| f64::from(angle).to_radians());
+    // about the middle: sin θ = sin m cos x + cos m sin x, for differences of cosines cancel in a narrow beam
+    let (middle, h) = (0.5 * (a + b), 0.5 * (b - a));
+    // ∫ x/2h sin x dx, by its series where it would cancel
+    let odd = if h < 0.01 { h * h / 3.0 * (1.0 - 0.1 * h * h) } else { h.sin() / h - h.cos() };
+    let (even, odd) = (middle.sin() * h.sin(), middle.cos() * odd);
+    [even - odd, even + odd]
 }
 
 /// The interval of rising `angles` that holds an angle, and where in it; `None` outside and for NaN.
@@ -60,6 +79,8 @@ pub(crate) struct IesError {
 
 const EXPORT_AGAIN: &str = "get the file from the maker of the lamp again";
 const TURNED_TYPE: &str = "convert it to type C; most tools for photometric files do";
+const OF_TYPE_C: &str = "in type C vertical angles are from 0, along the axis, to 180, and horizontal ones from 0 to 360; a file \
+                         with negative angles is of type A or B: convert it to type C";
 
 /// Reads the text of a file.
 pub(crate) fn parse(text: &[u8]) -> Result<IesProfile, IesError> {
@@ -110,8 +131,8 @@ pub(crate) fn parse(text: &[u8]) -> Result<IesProfile, IesError> {
     })
 }
 
-/// The circle of azimuths from what was measured, with the index of each one's plane: all around, or one half or quarter that
-/// is mirrored, or a single plane.
+/// The circle of azimuths from what was measured, with the index of each one's plane: all around, or one half (0 to 180, or 90
+/// to 270: the same on both sides of the plane through its ends) or quarter that is mirrored, or a single plane.
 fn whole_circle(measured: &[f32]) -> Result<Vec<(f32, usize)>, String> {
     let (first, last) = (measured[0], measured[measured.len() - 1]);
     let planes = || measured.iter().copied().zip(0usize..);
@@ -131,9 +152,10 @@ fn whole_circle(measured: &[f32]) -> Result<Vec<(f32, usize)>, String> {
     };
     around.sort_by(|a, b| a.0.total_cmp(&b.0));
     around.dedup_by_key(|(angle, _)| *angle);
-    // some files leave out the last plane, which is the first
-    if around.last().is_some_and(|(angle, _)| *angle < 360.0) {
-        around.push((360.0, around[0].1));
+    // the circle closes at the first plane, which is at 0 but for a half without a plane in its middle
+    let once_around = around[0].0 + 360.0;
+    if around.last().is_some_and(|(angle, _)| *angle < once_around) {
+        around.push((once_around, around[0].1));
     }
     Ok(around)
 }
@@ -203,9 +225,12 @@ impl<'a> Numbers<'a> {
         let mut angles: Vec<f32> = Vec::with_capacity(count);
         for _ in 0..count {
             let angle = self.next("an angle")? as f32;
-            if !(within.start..=within.end).contains(&angle) || angles.last().is_some_and(|&a| a >= angle) {
-                let problem = format!("a {what} angle of {angle} degrees after {:?}", angles.last());
-                return Err(self.error(problem, "angles rise, from 0 to at most 180 or 360"));
+            if !(within.start..=within.end).contains(&angle) {
+                return Err(self.error(format!("a {what} angle of {angle} degrees"), OF_TYPE_C));
+            }
+            if let Some(before) = angles.last().filter(|&&before| before >= angle) {
+                let problem = format!("a {what} angle of {angle} degrees after one of {before}");
+                return Err(self.error(problem, "angles rise from each to the next"));
             }
             angles.push(angle);
         }

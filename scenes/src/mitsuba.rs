@@ -151,6 +151,7 @@ impl<'d> Reader<'d> {
         }
         self.check_attributes();
         self.note_what_mitsuba_refuses();
+        self.note_axes();
         if self.scene.cameras.is_empty() {
             self.default_camera();
         }

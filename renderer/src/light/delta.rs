@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
-use limpid_scenes::LightKind;
+use limpid_scenes::{Color, LightKind};
 
+use super::choice::Weigh;
 use super::directional::Directional;
 use super::ies::Ies;
 use super::point::Point;
@@ -88,14 +89,29 @@ impl Delta {
         }
     }
 
-    /// Emitted power as a luminance; what enters a sphere of `scene_radius` where it comes from infinity.
-    pub fn power(&self, scene_radius: f64, textures: &Textures) -> f64 {
-        match self {
+    /// Emitted power as a luminance; what enters a sphere of `scene_radius` where it comes from infinity. The power of a
+    /// picture is an estimate, which may miss what is bright in it: only what cannot emit is never chosen.
+    pub fn weigh(&self, scene_radius: f64, textures: &Textures) -> Weigh {
+        if self.is_black() {
+            return Weigh::Never;
+        }
+        Weigh::Power(match self {
             Self::Point(light) => light.power(),
             Self::Spot(light) => light.power(textures),
             Self::Ies(light) => light.power(),
             Self::Directional(light) => PI * scene_radius * scene_radius * light.irradiance(),
             Self::Projector(light) => light.power(textures),
+        })
+    }
+
+    fn is_black(&self) -> bool {
+        let is_black = |color: Color| color == Color::Constant([0.0; 3]);
+        match self {
+            Self::Point(light) => light.intensity == Rgb::ZERO,
+            Self::Spot(light) => light.intensity == Rgb::ZERO || is_black(light.texture),
+            Self::Ies(light) => light.intensity == Rgb::ZERO || light.profile.is_dark(),
+            Self::Directional(light) => light.irradiance == Rgb::ZERO,
+            Self::Projector(light) => light.scale == 0.0 || is_black(light.irradiance),
         }
     }
 }

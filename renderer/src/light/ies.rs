@@ -22,7 +22,7 @@ impl Ies {
         let local = self.place.local(p);
         let vertical = local.x.hypot(local.y).atan2(local.z).to_degrees();
         let around = local.y.atan2(local.x).to_degrees();
-        let candelas = self.profile.at(vertical, if around < 0.0 { around + 360.0 } else { around });
+        let candelas = self.profile.at(vertical, around);
         if candelas <= 0.0 {
             return None;
         }

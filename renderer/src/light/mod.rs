@@ -17,7 +17,6 @@ mod projector;
 mod rectangle;
 mod shape;
 mod sky;
-
 mod sphere;
 mod spot;
 mod sun;
@@ -142,10 +141,7 @@ impl Lights {
         let deltas: Vec<_> = others.iter().filter_map(|light| Delta::new(&light.kind, origin)).collect();
         let of_surfaces = surfaces.iter().map(|light| light.weigh(textures));
         let of_infinite = infinite.iter().map(|light| light.weigh(scene_radius));
-        let of_deltas = deltas.iter().map(|light| match light.power(scene_radius, textures) {
-            0.0 => Weigh::Never,
-            power => Weigh::Power(power),
-        });
+        let of_deltas = deltas.iter().map(|light| light.weigh(scene_radius, textures));
         let weights: Vec<_> = of_surfaces.chain(of_infinite).chain(of_deltas).collect();
         let bad_texels = infinite.iter().map(Infinite::bad_texels).sum();
         Self { surfaces, infinite, deltas, choice: choose_from(&weights), of_shape, bad_texels }

@@ -9,7 +9,7 @@ use crate::spectrum::linear_from_srgb;
 use crate::{Color, Image, Rgb, TexelFilter, Texels, TextureId, TextureKind, WrapMode};
 
 /// Products of products of products: a limit that no reader reaches.
-const DEEPEST: u32 = 16;
+pub(super) const DEEPEST: u32 = 16;
 
 /// A picture in linear numbers with how it is looked up.
 #[derive(Clone)]
@@ -76,14 +76,14 @@ impl Baked {
     }
 }
 
-fn values(image: &Image) -> &[f32] {
+pub(super) fn values(image: &Image) -> &[f32] {
     match &image.texels {
         Texels::Linear32(values) => values,
         Texels::Srgb8(_) | Texels::Linear8(_) => &[],
     }
 }
 
-fn linear(image: &Image) -> Image {
+pub(super) fn linear(image: &Image) -> Image {
     let values = match &image.texels {
         Texels::Srgb8(bytes) => bytes.iter().map(|&b| linear_from_srgb(f32::from(b) / 255.0)).collect(),
         Texels::Linear8(bytes) => bytes.iter().map(|&b| f32::from(b) / 255.0).collect(),

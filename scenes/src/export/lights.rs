@@ -20,7 +20,8 @@ impl Writer<'_> {
                 self.xml.open("emitter", &[("type", "envmap"), ("id", &id)]);
                 self.xml.value("string", "filename", &file);
                 self.xml.float("scale", *scale);
-                self.xml.transform("to_world", *world_from_light);
+                let turned = self.turned(light, *world_from_light);
+                self.xml.transform("to_world", turned);
             }
             LightKind::Point { position, intensity } => {
                 self.xml.open("emitter", &[("type", "point"), ("id", &id)]);
@@ -67,7 +68,7 @@ impl Writer<'_> {
             LightKind::Sky { daylight, scale } => {
                 self.xml.open("emitter", &[("type", "sunsky"), ("id", &id)]);
                 let sun = self.sun_of(daylight).map(|(_, half_deg, scale)| (half_deg, scale));
-                self.daylight(daylight, *scale, sun);
+                self.daylight(light, daylight, *scale, sun);
             }
             LightKind::Sun { daylight, half_deg, scale } => {
                 let is_first = self.sun_of(daylight).is_some_and(|(first, ..)| std::ptr::eq(first, light));
@@ -79,7 +80,7 @@ impl Writer<'_> {
                     }
                     None if self.first_at_infinity().is_some_and(|first| std::ptr::eq(first, light)) => {
                         self.xml.open("emitter", &[("type", "sunsky"), ("id", &id)]);
-                        self.daylight(daylight, 0.0, Some((*half_deg, *scale)));
+                        self.daylight(light, daylight, 0.0, Some((*half_deg, *scale)));
                     }
                     _ => self.directional_sun(light, &id, daylight, *half_deg, *scale),
                 }
@@ -113,7 +114,7 @@ impl Writer<'_> {
     }
 
     /// The parameters of `sunsky`, whose sky has +z up.
-    fn daylight(&mut self, day: &Daylight, sky_scale: f32, sun: Option<(f64, f32)>) {
+    fn daylight(&mut self, light: &Light, day: &Daylight, sky_scale: f32, sun: Option<(f64, f32)>) {
         self.xml.vector("sun_direction", towards(day));
         self.xml.float("turbidity", day.turbidity);
         self.xml.rgb("albedo", day.albedo);
@@ -122,8 +123,25 @@ impl Writer<'_> {
         if let Some((half_deg, _)) = sun {
             self.xml.float("sun_aperture", 2.0 * half_deg);
         }
-        let world_from_sky = day.world_from_light * DMat4::from_rotation_x(-FRAC_PI_2);
+        let world_from_sky = self.turned(light, day.world_from_light) * DMat4::from_rotation_x(-FRAC_PI_2);
         self.xml.transform("to_world", world_from_sky);
+    }
+
+    /// How a light that surrounds the scene is turned and mirrored, without its scale: Mitsuba does not make the directions
+    /// unit that it looks up. Where the scale differs by direction, what stays is the horizon and the azimuth of +z.
+    fn turned(&mut self, light: &Light, world_from_light: DMat4) -> DMat4 {
+        let linear = DMat3::from_mat4(world_from_light);
+        let determinant = linear.determinant();
+        let up = linear.inverse().transpose().y_axis.normalize_or(DVec3::Y);
+        let z = linear.z_axis.normalize_or(DVec3::Z);
+        let turned = DMat3::from_cols(determinant.signum() * up.cross(z), up, z);
+        if !(linear * determinant.abs().cbrt().recip()).abs_diff_eq(turned, 1e-6) {
+            self.notes.push(format!(
+                "emitter \"{}\": a scale that differs by direction is left out of \"to_world\": its rotation is kept",
+                light.name
+            ));
+        }
+        DMat4::from_mat3(turned)
     }
 
     fn directional_sun(&mut self, light: &Light, id: &str, day: &Daylight, half_deg: f64, scale: f32) {

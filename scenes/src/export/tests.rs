@@ -1,3 +1,5 @@
+mod products;
+
 use std::fs;
 use std::path::Path;
 
@@ -289,6 +291,53 @@ fn day(scene: &Scene, light: usize) -> (crate::Daylight, f64) {
         crate::LightKind::Sky { daylight, .. } => (daylight, 0.0),
         crate::LightKind::Sun { daylight, half_deg, .. } => (daylight, half_deg),
         ref other => panic!("{other:?}"),
+    }
+}
+
+/// Mitsuba 3.9.1 looks up directions as long as the scale makes them (`docs/mitsuba.md`).
+#[test]
+fn what_surrounds_a_scene_is_exported_without_its_scale() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("sky.png");
+    ::image::save_buffer(&picture, &[10, 20, 30, 40, 50, 60], 2, 1, ::image::ColorType::Rgb8).unwrap();
+    let turn = r#"<rotate x="0.6" z="0.8" angle="50"/>"#;
+    let exported = |kind: &str, operations: &str| {
+        let scene = loaded(&format!(
+            r#"<emitter type="{kind}"><string name="filename" value="{}"/><vector name="sun_direction" value="1 2 3"/>
+            <transform name="to_world">{turn}{operations}</transform></emitter>"#,
+            picture.display()
+        ));
+        let (again, exported) = there_and_back(&scene);
+        let frame = match again.lights[0].kind {
+            crate::LightKind::EnvMap { world_from_light, .. } => world_from_light,
+            _ => day(&again, 0).0.world_from_light,
+        };
+        let towards =
+            frame.transform_vector3(if kind == "sunsky" { day(&again, 0).0.sun } else { glam::DVec3::Y });
+        (frame, towards.normalize(), exported.notes)
+    };
+    for kind in ["envmap", "sunsky"] {
+        let (frame, towards, notes) = exported(kind, "");
+        assert!(notes.is_empty(), "{notes:?}");
+        for (operations, mirror) in [
+            (r#"<scale value="3"/>"#, glam::DVec3::ONE),
+            (r#"<scale value="1e-5"/>"#, glam::DVec3::ONE),
+            (r#"<scale x="-2" y="2" z="2"/><translate x="5"/>"#, glam::DVec3::new(-1.0, 1.0, 1.0)),
+        ] {
+            let (turned, to, notes) = exported(kind, operations);
+            let expected = glam::DMat4::from_scale(mirror) * frame;
+            assert!(turned.abs_diff_eq(expected, 1e-12), "{kind} {operations}: {turned} {expected}");
+            let expected = if kind == "sunsky" { towards } else { mirror * towards };
+            assert!(
+                to.abs_diff_eq(expected, 1e-9) && notes.is_empty(),
+                "{kind} {operations}: {to} {notes:?}"
+            );
+        }
+        let (uneven, to, notes) = exported(kind, r#"<scale x="3"/>"#);
+        let linear = glam::DMat3::from_mat4(uneven);
+        assert!((linear * linear.transpose()).abs_diff_eq(glam::DMat3::IDENTITY, 1e-12), "{uneven}");
+        assert!(kind == "envmap" || to.abs_diff_eq(towards, 1e-9), "{to} {towards}");
+        assert!(notes.len() == 1 && notes[0].contains("a scale that differs by direction"), "{notes:?}");
     }
 }
 

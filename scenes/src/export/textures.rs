@@ -50,7 +50,7 @@ impl Writer<'_> {
     }
 
     /// A picture that was made here.
-    fn baked_texture(&mut self, name: &str, baked: Baked) -> Result<(), ExportError> {
+    pub(super) fn baked_texture(&mut self, name: &str, baked: Baked) -> Result<(), ExportError> {
         self.bitmap(name, &baked.image, baked.filter, baked.wrap)?;
         self.xml.transform("to_uv", matrix4(baked.uv_from_surface));
         self.xml.close("texture");
@@ -92,7 +92,7 @@ impl Writer<'_> {
     }
 
     /// A colour times a factor, which Mitsuba has no texture for: the factor goes into what is scaled.
-    fn scaled_color(&mut self, name: &str, color: Color, factor: Rgb) -> Result<(), ExportError> {
+    pub(super) fn scaled_color(&mut self, name: &str, color: Color, factor: Rgb) -> Result<(), ExportError> {
         match color {
             Color::Constant(rgb) => self.color(name, Color::Constant(times(rgb, factor))),
             Color::Texture(texture) => self.scaled_texture(name, texture, factor),
@@ -119,25 +119,22 @@ impl Writer<'_> {
                 return self.scaled_color(name, *color, times(factor, *inner));
             }
             TextureKind::MeshAttribute { name: attribute, scale } => {
-                if factor[1] != factor[0] || factor[2] != factor[0] {
+                if factor != [factor[0]; 3] {
                     self.notes.push(format!(
-                        "texture \"{}\": the tint of a mesh attribute is left out: Mitsuba scales one by a number",
+                        "texture \"{}\": the tint of a mesh attribute is left out but for its mean: Mitsuba scales one by a number",
                         texture.name
                     ));
                 }
                 self.xml.open("texture", &[("type", "mesh_attribute"), ("name", name)]);
                 self.xml.value("string", "name", attribute);
-                self.xml.float("scale", scale * factor[1]);
+                let grey =
+                    if factor == [factor[0]; 3] { factor[0] } else { factor.iter().sum::<f32>() / 3.0 };
+                self.xml.float("scale", scale * grey);
                 self.xml.close("texture");
                 return Ok(());
             }
-            TextureKind::Channel { .. } | TextureKind::Product { .. } => {
-                let Some(baked) = self.bake(id) else {
-                    self.note("a product of textures that do not fit on each other is grey 0.5");
-                    return self.color(name, Color::Constant([0.5; 3]));
-                };
-                return self.baked_texture(name, baked.map(|texel| times(texel, factor)));
-            }
+            TextureKind::Channel { .. } => return self.channel(name, id, factor),
+            TextureKind::Product { a, b } => return self.product(name, id, [*a, *b], factor),
         }
         self.xml.transform("to_uv", matrix4(texture.uv_from_surface));
         self.xml.close("texture");
@@ -145,7 +142,7 @@ impl Writer<'_> {
     }
 }
 
-fn times(a: Rgb, b: Rgb) -> Rgb {
+pub(super) fn times(a: Rgb, b: Rgb) -> Rgb {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }
 

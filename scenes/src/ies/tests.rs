@@ -31,7 +31,26 @@ fn profiles_integrate_to_their_flux() {
     assert!((4.0 * profile.mean() - 1.0).abs() < 1e-3, "{}", profile.mean());
     // linear in the azimuth from 0 to 2 over each quarter, the same at all heights: mean 1
     let profile = read(&file(&[0.0, 180.0], &[0.0, 90.0], &[0.0, 0.0, 2.0, 2.0]));
-    assert!((profile.mean() - 1.0).abs() < 1e-3, "{}", profile.mean());
+    assert!((profile.mean() - 1.0).abs() < 1e-12, "{}", profile.mean());
+}
+
+/// Against midpoints of 2^16 rings, and for the fan against ∫ sin θ dθ = 2.
+#[test]
+fn narrow_beams_and_fans_keep_their_flux() {
+    for edge in [60.0, 0.3, 0.2, 1e-3] {
+        let end = 1.05 * edge;
+        let profile = read(&file(&[0.0, edge, end, 90.0], &[0.0], &[1e6, 5e5, 0.0, 0.0]));
+        let end = f64::from(end);
+        let ring = |i: i32| {
+            let vertical = end * (f64::from(i) + 0.5) / f64::from(1 << 16);
+            profile.at(vertical, 0.0) * vertical.to_radians().sin()
+        };
+        let truth = 0.5 * (0..1 << 16).map(ring).sum::<f64>() * end.to_radians() / f64::from(1 << 16);
+        assert!((profile.mean() / truth - 1.0).abs() < 1e-8, "{edge}: {} {truth}", profile.mean());
+    }
+    let wall: Vec<f32> = [0.0, 9.0, 9.0, 0.0, 0.0].iter().flat_map(|&c| [c, c]).collect();
+    let fan = read(&file(&[0.0, 180.0], &[0.0, 1.0, 1.5, 2.5, 360.0], &wall));
+    assert!((fan.mean() / (9.0 * 1.5 / 360.0) - 1.0).abs() < 1e-12, "{}", fan.mean());
 }
 
 #[test]
@@ -49,6 +68,13 @@ fn a_half_and_a_quarter_are_mirrored() {
     assert_eq!(
         [0.0, 45.0, 90.0, 180.0, 270.0, 315.0].map(|a| side.at(90.0, a)),
         [2.0, 1.5, 1.0, 2.0, 3.0, 2.5]
+    );
+    // the same without planes at 180, and so at 0
+    let side =
+        read(&file(&[0.0, 90.0], &[90.0, 170.0, 200.0, 270.0], &[9.0, 1.0, 9.0, 2.0, 9.0, 5.0, 9.0, 4.0]));
+    assert_eq!(
+        [10.0, 355.0, 345.0, 340.0, 0.0, 360.0, 90.0, 130.0, 50.0].map(|a| side.at(90.0, a)),
+        [2.0, 3.5, 4.5, 5.0, 3.0, 3.0, 1.0, 1.5, 1.5]
     );
     // all around, the last plane left out
     let whole = read(&file(&[0.0, 90.0], &[0.0, 90.0, 270.0], &[9.0, 1.0, 9.0, 2.0, 9.0, 3.0]));
@@ -87,7 +113,8 @@ fn wrong_files_are_refused_with_the_line() {
         ("1 -1 1 2 2", "1 -1 1 1e18 1e18", 4, "number of vertical angles is"),
         ("1 1 100", "1 x 100", 5, "\"x\", where the second ballast factor belongs"),
         ("1 1 100", "-1 1 100", 5, "a factor of -1"),
-        ("\n0 90\n0 90\n", "\n90 0\n0 90\n", 6, "vertical angle of 0 degrees after Some(90"),
+        ("\n0 90\n0 90\n", "\n90 0\n0 90\n", 6, "vertical angle of 0 degrees after one of 90"),
+        ("\n0 90\n0 90\n", "\n0 90\n0 361\n", 7, "horizontal angle of 361 degrees"),
         ("\n0 90\n0 90\n", "\n0 90\n0 80\n", 8, "horizontal angles from 0 to 80"),
         ("1 2 3 4", "1 2 -3 4", 8, "a value of -3 candelas"),
         ("1 2 3 4", "1 2 nan 4", 8, "\"nan\""),
@@ -97,6 +124,12 @@ fn wrong_files_are_refused_with_the_line() {
         let error = parse(good.replacen(from, to, 1).as_bytes()).expect_err(to);
         assert!(error.problem.contains(problem) && error.line == line, "{to}: {error:?}");
     }
+    let of_type_b = good.replacen("\n0 90\n", "\n-90 90\n", 1);
+    let error = parse(of_type_b.as_bytes()).unwrap_err();
+    assert!(
+        error.problem == "a vertical angle of -90 degrees" && error.help.contains("type A or B"),
+        "{error:?}"
+    );
     // cut anywhere, and with any byte changed: an error or a profile, never a panic
     for cut in 0..good.len() {
         let _ = parse(&good.as_bytes()[..cut]);

@@ -1,7 +1,9 @@
-//! What is read here and makes Mitsuba 3.9.1 refuse a file: words of 0.x that have no version-3 name.
+//! What is read here and makes Mitsuba 3.9.1 refuse a file, or show another picture: words of 0.x that have no version-3
+//! name, and axes that are not unit.
 
 use super::Reader;
 use super::document::{Document, Element};
+use super::value;
 use crate::Warning;
 
 /// Plugins, each with its element.
@@ -28,6 +30,9 @@ const PARAMETERS: [(&str, &[&str]); 8] = [
 /// Names that are listed: the rest is much the same.
 const MAX_LISTED: usize = 8;
 
+/// By how much the square of an axis's length may be off 1: that of `x="0.577" y="0.577" z="0.577"` is by 0.0012.
+const UNIT: f64 = 2e-3;
+
 impl Reader<'_> {
     /// Says in one warning, at the first of them, what Mitsuba 3 will not take.
     pub(super) fn note_what_mitsuba_refuses(&mut self) {
@@ -52,6 +57,18 @@ impl Reader<'_> {
             unused_parameter: false,
         };
         self.warnings.push((first.id, warning));
+    }
+
+    /// Says in one warning, at the first of them, that Mitsuba 3 scales where it turns about an axis that is not unit.
+    pub(super) fn note_axes(&mut self) {
+        let is_other = |element: &&Element| {
+            element.tag == "rotate"
+                && value::vector(element, 0.0).is_ok_and(|axis| (axis.length_squared() - 1.0).abs() > UNIT)
+        };
+        if let Some(first) = self.document.elements.iter().find(is_other) {
+            let message = "the axis is not unit: Mitsuba 3 scales with its length, limpid turns alone";
+            self.warn(first.id, message);
+        }
     }
 }
 

@@ -5,6 +5,7 @@ mod emitters;
 mod errors;
 mod hostile;
 mod language;
+mod materials;
 mod nesting;
 mod objects;
 mod principled;

@@ -193,7 +193,7 @@ pub const CONSTRUCTS: &[Construct] = &[
     ),
     construct(
         "rotate x y z angle",
-        r#"@eye@light<shape type="cube"><transform name="to_world"><rotate z="3" angle="90"/></transform></shape>"#,
+        r#"@eye@light<shape type="cube"><transform name="to_world"><rotate z="1" angle="90"/></transform></shape>"#,
         TURNED,
     ),
     construct(

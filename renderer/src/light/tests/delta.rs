@@ -91,6 +91,58 @@ fn photometric_light_sends_its_profile() {
     assert!((flux / PI - 1.0).abs() < 1e-3, "{flux}");
 }
 
+/// A lamp whose power, estimated on a grid or not, comes out as 0 or next to it shines all the same.
+#[test]
+fn what_shines_in_few_directions_is_drawn() {
+    // white in the four texels around its middle, which the grid of 32 × 32 passes by
+    let is_white = |i: usize| [i % 1024, i / 1024].iter().all(|at| (511..=512).contains(at));
+    let textures = picture(1024, 1024, |i| [f32::from(u8::from(is_white(i))); 3]);
+    let slide = Color::Texture(TextureId(0));
+    let laser = limpid_scenes::IesProfile {
+        vertical_deg: vec![0.0, 0.2, 0.21, 90.0],
+        horizontal_deg: vec![0.0, 360.0],
+        candelas: [1e6, 1e6, 0.0, 0.0].repeat(2),
+    };
+    let profile = std::sync::Arc::new(laser);
+    let (world_from_light, white, half_size) = (DMat4::IDENTITY, [1.0; 3], [1.0; 2]);
+    for kind in [
+        LightKind::Ies { world_from_light, intensity: white, profile },
+        spot(20.0, 15.0, slide),
+        LightKind::Projector { world_from_light, irradiance: slide, scale: 1.0, half_size },
+    ] {
+        let shown = format!("{kind:?}");
+        let lights = light(kind, &textures, DVec3::ZERO);
+        let (_, irradiance) =
+            at(&lights, [-1e-4, -1e-4, 1.0], &textures).unwrap_or_else(|| panic!("{shown:.20}"));
+        assert!(irradiance.x > 0.5, "{shown:.20}: {irradiance}");
+    }
+}
+
+#[test]
+fn lamps_that_are_black_are_not_drawn() {
+    let textures = NO_TEXTURES();
+    let (world_from_light, half_size) = (DMat4::IDENTITY, [1.0; 2]);
+    let profile = |candelas: f32| {
+        let candelas = vec![candelas; 4];
+        let [vertical_deg, horizontal_deg] = [[0.0, 90.0], [0.0, 360.0]].map(Vec::from);
+        std::sync::Arc::new(limpid_scenes::IesProfile { vertical_deg, horizontal_deg, candelas })
+    };
+    let black = [0.0; 3];
+    for kind in [
+        LightKind::Point { position: DVec3::ZERO, intensity: black },
+        LightKind::Ies { world_from_light, intensity: [1.0; 3], profile: profile(0.0) },
+        LightKind::Ies { world_from_light, intensity: black, profile: profile(1.0) },
+        spot(20.0, 15.0, Color::Constant(black)),
+        LightKind::Directional { direction: DVec3::Z, irradiance: black },
+        LightKind::Projector { world_from_light, irradiance: Color::Constant(black), scale: 1.0, half_size },
+        LightKind::Projector { world_from_light, irradiance: WHITE, scale: 0.0, half_size },
+    ] {
+        let shown = format!("{kind:?}");
+        let lights = light(kind, &textures, DVec3::ZERO);
+        assert!(lights.choice.is_none(), "{shown}");
+    }
+}
+
 #[test]
 fn spot_fades_linearly_in_the_angle_as_mitsubas_does() {
     let textures = NO_TEXTURES();

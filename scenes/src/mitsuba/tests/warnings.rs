@@ -47,6 +47,11 @@ fn each_stand_in_is_named_with_its_place() {
             "shape \"cube\": to_world flattens the shape; it is left out",
         ),
         (
+            r#"<shape type="cube"><transform name="to_world"><rotate x="0.6" y="-0.8" angle="9"/>¦<rotate x="1" y="1" angle="9"/>
+                <rotate z="3" angle="9"/></transform></shape>"#,
+            "rotate: the axis is not unit: Mitsuba 3 scales with its length, limpid turns alone",
+        ),
+        (
             r#"<bsdf type="diffuse">¦<rgb name="reflectance" value="2"/></bsdf>"#,
             "rgb \"reflectance\" of bsdf \"diffuse\": a reflectance beyond 0 to 1",
         ),
