@@ -1,10 +1,11 @@
 //! What limpid does otherwise than Mitsuba 3 on purpose, undone.
 //!
 //! What differs by choice has its switch here, so that a comparison sees mistakes and not decisions: clip planes, the
-//! steps of pixel filters, checkerboards that are read as numbers, and how spots of glTF fade.
+//! steps of pixel filters, checkerboards that are read as numbers, glTF's materials, and how its spots fade.
 
 use std::collections::HashMap;
 
+use crate::gltf_in_mitsuba::replace_gltf_materials;
 use crate::{LightKind, Scalar, Scene, SpotFalloff, TextureId, TextureKind, linear_beam_deg};
 
 /// Where Mitsuba's cameras begin and end to see, in scene units, unless the file says otherwise.
@@ -19,6 +20,7 @@ pub fn as_mitsuba(scene: &mut Scene) {
         camera.far_clip.get_or_insert(CLIP[1]);
         camera.film.filter_steps = Some(FILTER_STEPS);
     }
+    replace_gltf_materials(scene);
     swap_checkerboards(scene);
     for light in &mut scene.lights {
         if let LightKind::Spot { cutoff_deg, beam_deg, falloff, .. } = &mut light.kind

@@ -15,6 +15,7 @@ use std::collections::{HashMap, HashSet};
 use std::io;
 use std::sync::Arc;
 
+use crate::gltf_in_mitsuba::replace_gltf_materials;
 use crate::{Aov, Image, Mesh, Scene, SceneError};
 use xml::Xml;
 
@@ -65,8 +66,11 @@ pub fn export_mitsuba(
         )
         .into());
     }
+    let mut scene = scene.clone(); // meshes and pictures are shared
+    let differences = replace_gltf_materials(&mut scene);
+    let notes = differences.iter().map(|what| format!("glTF's material as the nearest of Mitsuba's: {what}"));
     let mut writer = Writer {
-        scene,
+        scene: &scene,
         xml: Xml::new(),
         folder,
         write,
@@ -75,7 +79,7 @@ pub fn export_mitsuba(
         images: HashMap::new(),
         scaled: Vec::new(),
         groups: Vec::new(),
-        notes: Vec::new(),
+        notes: notes.collect(),
     };
     writer.xml.open("scene", &[("version", "3.0.0")]);
     writer.integrator();

@@ -35,6 +35,7 @@ mod error;
 mod export;
 mod files;
 mod gltf;
+mod gltf_in_mitsuba;
 mod gltf_material;
 mod ies;
 mod image;

@@ -266,9 +266,11 @@ impl<'d> Reader<'d> {
             None => {
                 let problem = format!("the file \"{}\" is not there", value::shorten(name));
                 let mut help = String::from("names are looked for beside the scene");
-                if !self.files.folders.is_empty() {
-                    let folders: Vec<_> =
-                        self.files.folders.iter().map(|f| f.display().to_string()).collect();
+                let mut folders: Vec<_> =
+                    self.files.folders.iter().map(|f| f.display().to_string()).collect();
+                folders.retain(|folder| !folder.is_empty()); // that of a scene that was named without one
+                folders.dedup();
+                if !folders.is_empty() {
                     help += &format!(" and in {}", folders.join(", "));
                 }
                 Err(SceneError::at(&place, label, problem, help))

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use limpid_frame::{FrameError, read_exr, write_png};
 use limpid_tests::start::call;
 use limpid_tests::table;
 
@@ -64,7 +65,7 @@ fn name(file: &Path) -> String {
     file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// Both pictures of a scene, as the report of `crosscheck` has them, else limpid's alone.
+/// limpid's picture of a scene and, where there is one, Mitsuba's, both at the scene's own brightness.
 fn pair(name: &str, scene: &Path, work: &Path) -> Result<Pair, String> {
     let report = work.join("report");
     let (size, spp) = (format!("{SIDE}x{SIDE}"), SPP.to_string());
@@ -73,19 +74,29 @@ fn pair(name: &str, scene: &Path, work: &Path) -> Result<Pair, String> {
         let command = [PathBuf::from(command), scene.to_owned()];
         call(work, command.iter().chain(&words).map(PathBuf::as_path).chain(out.iter().copied()))
     };
-    let checked = with("crosscheck", &[Path::new("-o"), &report]);
-    if checked.code <= 1 {
-        let read = |file: &str| std::fs::read(report.join(file)).map_err(|e| format!("{file}: {e}"));
-        return Ok(Pair { name: name.into(), ours: read("limpid.png")?, theirs: Some(read("mitsuba.png")?) });
-    }
-    eprintln!("{name}: {}", checked.stderr.trim());
-    let [frame, png] = ["alone.exr", "alone.png"].map(|file| work.join(file));
-    let rendered = with("render", &[Path::new("-o"), &frame, Path::new("--png"), &png]);
+    // Not the report's: there glTF has Mitsuba's materials on both sides.
+    let frame = work.join("ours.exr");
+    let rendered = with("render", &[Path::new("-o"), &frame]);
     if rendered.code != 0 {
         return Err(rendered.stderr);
     }
-    let ours = std::fs::read(&png).map_err(|e| e.to_string())?;
-    Ok(Pair { name: name.into(), ours, theirs: None })
+    let png = |frame: &Path| {
+        let png = work.join("shown.png");
+        let said = |e: FrameError| e.to_string();
+        let frame = read_exr(frame).map_err(said)?;
+        let rgb = frame.rgb().map_err(said)?;
+        write_png(rgb, frame.width(), frame.height(), 0.0, &png).map_err(said)?;
+        std::fs::read(&png).map_err(|e| e.to_string())
+    };
+    let checked = with("crosscheck", &[Path::new("-o"), &report]);
+    let theirs = match checked.code {
+        0 | 1 => Some(png(&report.join("mitsuba.exr"))?),
+        _ => {
+            eprintln!("{name}: {}", checked.stderr.trim());
+            None
+        }
+    };
+    Ok(Pair { name: name.into(), ours: png(&frame)?, theirs })
 }
 
 fn svg(pairs: &[Pair]) -> String {

@@ -47,7 +47,7 @@ pub enum Command {
     Info(Info),
     /// Measure how far a picture is from its reference.
     Metrics(Metrics),
-    /// Write a scene as Mitsuba XML that renders the same picture there.
+    /// Write a scene as Mitsuba XML that renders the same picture there (glTF: with the nearest materials).
     Export(Export),
     /// Compare with Mitsuba 3: do both compute the same picture, and how sure is that?
     Crosscheck(Crosscheck),
@@ -138,7 +138,8 @@ pub struct Crosscheck {
     pub scenes: Vec<PathBuf>,
     #[command(flatten)]
     pub reading: Reading,
-    /// Size of the pictures in pixels [default: the scene's]. The smaller, the sooner it is known.
+    /// Size of the pictures in pixels [default: the scene's]. A small one finds most mistakes, but needs more samples
+    /// per pixel.
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub size: Option<[u32; 2]>,
     /// Camera to compare, where the scene has several [default: its first].

@@ -55,7 +55,7 @@ impl Pictures {
 /// The name that outputs get where none is given, without extension: the scene file's, or its folder's where the file
 /// is called `scene.*`.
 pub fn default_stem(scene: &Path) -> PathBuf {
-    let stem = scene.file_stem().unwrap_or_default();
+    let stem = scene.file_stem().unwrap_or("scene".as_ref()); // `..` has none
     if stem != "scene" {
         return PathBuf::from(stem);
     }

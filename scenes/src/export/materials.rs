@@ -133,7 +133,7 @@ impl Writer<'_> {
             }
             MaterialKind::Principled(p) => self.principled(p),
             MaterialKind::PrincipledThin(p) => self.principled_thin(p),
-            MaterialKind::Gltf(p) => self.gltf(p),
+            MaterialKind::Gltf(_) => unreachable!("others are in their place"),
             MaterialKind::TwoSided { front, back } => {
                 self.material_ref(*front);
                 if back != front {
@@ -259,8 +259,7 @@ fn plugin(kind: &MaterialKind) -> &'static str {
         MaterialKind::Coated { .. } => "coating",
         MaterialKind::Principled(_) => "principled",
         MaterialKind::PrincipledThin(_) => "principledthin",
-        MaterialKind::Gltf(p) if p.thin && p.transmits() => "principledthin",
-        MaterialKind::Gltf(_) => "principled",
+        MaterialKind::Gltf(_) => unreachable!("others are in their place"),
         MaterialKind::TwoSided { .. } => "twosided",
         MaterialKind::Null => "null",
         MaterialKind::Mask { .. } => "mask",

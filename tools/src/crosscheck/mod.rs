@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use limpid_frame::FrameError;
 use limpid_frame::compare::{Family, Finding, Parts};
-use limpid_scenes::LoadOptions;
+use limpid_scenes::{LoadOptions, MaterialKind};
 use serde_json::{Value, json};
 
 use crate::cli::{Common, Crosscheck};
@@ -39,14 +39,26 @@ const LISTED: usize = 5;
 /// Compares each scene; the answer is no where one does not agree.
 pub fn run(options: &Crosscheck, common: &Common) -> Result<(), CliError> {
     let folders = report::folders(&options.scenes, options.output.as_deref(), common.json);
-    // Before the work that they are to show.
-    folders.iter().flatten().try_for_each(|folder| report::make_folder(folder))?;
+    // Before the work that they are to show: so that no work is lost.
+    let mut new = Vec::new();
+    for folder in folders.iter().flatten() {
+        if report::make_folder(folder)? {
+            new.push(folder);
+        }
+    }
+    let done = compared(options, common, &folders);
+    // What a comparison that never was would have filled.
+    new.iter().for_each(|folder| _ = std::fs::remove_dir(folder));
+    done
+}
+
+fn compared(options: &Crosscheck, common: &Common, folders: &[Option<PathBuf>]) -> Result<(), CliError> {
     let environment = match options.against {
         Some(_) => None,
         None => Some(Environment::ready(common)?),
     };
     let mut checked = Vec::new();
-    for (scene, folder) in options.scenes.iter().zip(&folders) {
+    for (scene, folder) in options.scenes.iter().zip(folders) {
         let done = check(scene, folder.as_deref(), environment.as_ref(), options, common)?;
         if !common.json {
             words::result(table(scene, folder.as_deref(), &done))?;
@@ -55,7 +67,7 @@ pub fn run(options: &Crosscheck, common: &Common) -> Result<(), CliError> {
     }
     if let Some(folder) = options.output.as_ref().filter(|_| options.scenes.len() > 1) {
         let rows: Vec<_> =
-            checked.iter().zip(&folders).filter_map(|(done, folder)| row(done, folder.as_deref()?)).collect();
+            checked.iter().zip(folders).filter_map(|(done, folder)| row(done, folder.as_deref()?)).collect();
         let page = report::index(&rows);
         limpid_frame::write_whole(&folder.join("index.html"), |file| {
             std::io::Write::write_all(file, page.as_bytes())
@@ -104,8 +116,13 @@ fn for_mitsuba(scene: &Path, options: &Crosscheck) -> Result<ForMitsuba, CliErro
     let folder = tempfile::tempdir().map_err(failed)?;
     let file = folder.path().join("scene.xml");
     let reading = LoadOptions { defines: options.reading.defines.clone(), strict: options.reading.strict };
-    let (_, mut notes) = export::write(&limpid_scenes::load(scene, &reading)?, &file)?;
+    let scene = limpid_scenes::load(scene, &reading)?;
+    let (_, mut notes) = export::write(&scene, &file)?;
     notes.insert(0, "exported for Mitsuba: a fault of the reader would show in both pictures".into());
+    if scene.materials.iter().any(|material| matches!(material.kind, MaterialKind::Gltf(_))) {
+        let what = "both pictures show the nearest of Mitsuba's materials in the place of glTF's own, which `render` shows";
+        notes.insert(1, what.into());
+    }
     Ok(ForMitsuba { file, notes, _folder: Some(folder) })
 }
 
@@ -121,14 +138,14 @@ fn check(
     let size = ours.size();
     let spp = options.spp.unwrap_or(if options.power { FIRST_ROUND } else { ours.spp });
     let warnings = std::mem::take(&mut ours.warnings);
-    let (splat, camera) = (ours.splat, ours.camera);
+    let (splat, camera, seen) = (ours.splat, ours.camera, ours.seen());
     let seed = options.seed;
     let mut our_pass = |pass: u32, spp: u32| {
         let seed = seed << 32 | u64::from(pass); // passes of one seed and of another never meet
         Ok(with_spinner(common, "rendering here", || ours.pass(seed, spp)))
     };
     let mut tell = |outcome: &Outcome| {
-        let reach = verdict::percent(outcome.comparison.detectable_bias);
+        let reach = verdict::percent(outcome.detectable_bias());
         words::note(
             common,
             format_args!(
@@ -143,7 +160,7 @@ fn check(
             let (reference, notes) = against::picture(picture, variance, size, splat)?;
             notes.iter().for_each(|note| words::note(common, format_args!("note: {note}")));
             let theirs = Theirs::Fixed(reference);
-            let outcome = rounds::run(size, spp, options.power, &mut our_pass, theirs, &mut tell)?;
+            let outcome = rounds::run(&seen, size, spp, options.power, &mut our_pass, theirs, &mut tell)?;
             (outcome, picture.display().to_string(), notes)
         }
         (Some(environment), ..) => {
@@ -171,7 +188,7 @@ fn check(
                     with_spinner(common, "rendering with Mitsuba", || mitsuba.pass(&file, seed, spp))
                 };
                 let theirs = Theirs::Renders(&mut their_pass);
-                let outcome = rounds::run(size, spp, options.power, &mut our_pass, theirs, &mut tell)?;
+                let outcome = rounds::run(&seen, size, spp, options.power, &mut our_pass, theirs, &mut tell)?;
                 Ok((outcome, other, notes))
             };
             match with(&environment.variant, &of_export) {
@@ -232,11 +249,12 @@ impl Checked {
             "agree": self.outcome.agrees(),
             "p": comparison.p,
             "mean_ratio": comparison.mean_ratio,
-            "detectable_bias": comparison.detectable_bias,
+            "detectable_bias": self.outcome.detectable_bias(),
+            "background": 1.0 - self.outcome.share,
             "blocks": comparison.blocks,
             "spp": self.outcome.spp,
             "verdict": Verdict::of(&self.outcome).class(),
-            "spp_needed": self.outcome.spp_needed().map(f64::ceil),
+            "spp_needed": self.outcome.spp_needed(),
             "left_out": comparison.left_out,
             "other": self.other,
             "families": comparison.families.iter().map(in_json).collect::<Vec<_>>(),
@@ -278,10 +296,16 @@ fn table(scene: &Path, folder: Option<&Path>, done: &Checked) -> String {
         format!("{} beside {}", scene.display(), done.other),
         format!("  {:<18} {}", "answer", Verdict::of(&done.outcome).word().to_lowercase()),
         format!("  {:<18} {}", "limpid is", verdict::brightness(comparison.mean_ratio)),
-        format!("  {:<18} {}", "would show from", verdict::percent(comparison.detectable_bias)),
-        format!("  {:<18} {} (an alarm below 0.01)", "p", verdict::number(comparison.p)),
-        format!("  {:<18} {} in {} places", "samples per pixel", done.outcome.spp, comparison.blocks),
+        format!("  {:<18} {}", "would show from", verdict::percent(done.outcome.detectable_bias())),
+        format!("  {:<18} {} (an alarm below 0.01)", "p", verdict::probability(comparison.p)),
+        format!("  {:<18} {}", "samples per pixel", done.outcome.spp),
+        format!("  {:<18} {} parts of the picture", "compared in", comparison.blocks),
     ];
+    if done.outcome.share < 1.0 {
+        let background = verdict::percent(1.0 - done.outcome.share);
+        lines
+            .push(format!("  {:<18} {background} of the light, which does not count as known", "background"));
+    }
     if comparison.left_out > 0 {
         lines.push(format!("  {:<18} {} pixels", "left out", comparison.left_out));
     }
@@ -297,5 +321,5 @@ fn row(done: &Checked, folder: &Path) -> Option<(String, String, Verdict, f64, f
     let folder = folder.file_name()?.to_string_lossy().into_owned();
     let name = output::default_stem(Path::new(&done.scene)).display().to_string();
     let verdict = Verdict::of(&done.outcome);
-    Some((name, folder, verdict, comparison.mean_ratio, comparison.detectable_bias, comparison.p))
+    Some((name, folder, verdict, comparison.mean_ratio, done.outcome.detectable_bias(), comparison.p))
 }

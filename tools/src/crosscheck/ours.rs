@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use limpid_frame::LayerRequest;
+use limpid_frame::{Layer, LayerRequest, Statistic};
 use limpid_renderer::{Prepared, Progress, Sampler, Settings, Splat, render};
 use limpid_scenes::PixelFilter;
 
@@ -13,6 +13,9 @@ use crate::{scene, system, words};
 
 /// Bytes that a comparison keeps a pixel: the moments of both pictures' passes and halves.
 const BYTES_PER_PIXEL: u64 = 700;
+
+/// Samples of a pixel that look for what is before the background.
+const LOOKS: u32 = 4;
 
 /// The scene, its settings, and what is worth knowing about them.
 pub struct Ours {
@@ -71,6 +74,15 @@ impl Ours {
     pub fn size(&self) -> [usize; 2] {
         let Settings { width, height, crop, .. } = self.settings;
         crop.map_or([width, height], |crop| [crop.width, crop.height]).map(|length| length as usize)
+    }
+
+    /// The pixels that show something before the background.
+    pub fn seen(&self) -> Vec<bool> {
+        let layers = LayerRequest::parse("hit").expect("is a layer");
+        let settings = Settings { layers, spp: LOOKS, ..self.settings.clone() };
+        let rendered = render(&self.prepared, &settings, &Progress::default(), None);
+        let hit = rendered.frame.layer(Layer::Hit, Statistic::Mean).expect("was asked for");
+        hit[0].iter().map(|&hit| hit > 0.0).collect()
     }
 
     /// One pass: planes R, G and B.

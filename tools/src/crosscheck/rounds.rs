@@ -14,8 +14,10 @@ const PASSES: u32 = 16;
 const MAX_PASS: u32 = 512;
 /// A round may take this many times as many samples as there are: a first estimate of the noise may have missed its tail.
 const GROWTH: f64 = 8.0;
-/// Asked for over what the noise so far calls for.
-const MARGIN: f64 = 1.15;
+/// Asked for by `--power` over that.
+const MARGIN: f64 = 1.05;
+/// What is asked for over what the noise so far calls for, which may have missed its tail.
+const SPARE: f64 = 1.1;
 /// A difference as clear as this ends `--power` at once: looking up to ten times at a hundredth of the level adds 0.1 %
 /// of false alarms.
 const CLEAR: f64 = 0.01 * FALSE_ALARMS;
@@ -55,12 +57,32 @@ pub struct Outcome {
     pub comparison: Comparison,
     /// Samples of each pixel on our side.
     pub spp: u32,
+    /// Share of the light that comes from pixels that show more than background.
+    pub share: f64,
+}
+
+/// Where hardly anything is to be seen, it counts as this share of the light.
+const LEAST_SHARE: f64 = 0.05;
+
+/// Share of a picture's light that comes from the pixels that are `seen`, of all where none is.
+fn share(picture: &Halves, seen: &[bool]) -> f64 {
+    let light =
+        |p: usize| (0..3).map(|channel| picture.pixel(channel, p)[0]).filter(|x| x.is_finite()).sum::<f64>();
+    let all: f64 = (0..seen.len()).map(light).sum();
+    let of_seen: f64 = (0..seen.len()).filter(|&p| seen[p]).map(light).sum();
+    if all > 0.0 && seen.contains(&true) { (of_seen / all).clamp(LEAST_SHARE, 1.0) } else { 1.0 }
 }
 
 impl Outcome {
     /// No difference was found, and one of 0.5 % would have been.
     pub fn agrees(&self) -> bool {
-        !self.differs() && self.comparison.detectable_bias <= TARGET
+        !self.differs() && self.detectable_bias() <= TARGET
+    }
+
+    /// The smallest relative bias that would have shown in the mean of the picture, were all but the background biased. A
+    /// sky that is known nearly without noise makes the mean of a picture sure, and says nothing of what is before it.
+    pub fn detectable_bias(&self) -> f64 {
+        self.comparison.detectable_bias / self.share
     }
 
     /// A difference was found.
@@ -68,22 +90,24 @@ impl Outcome {
         self.comparison.p < FALSE_ALARMS
     }
 
-    /// Samples a pixel for a detectable bias of 0.5 %; `None` where no number will do: there is no light, or the
-    /// reference is too noisy itself.
+    /// Samples a pixel for a detectable bias of 0.5 %, a tenth more than the noise so far calls for and a multiple of 16;
+    /// `None` where no number will do: there is no light, or the reference is too noisy itself.
     pub fn spp_needed(&self) -> Option<f64> {
         let fixed = matches!(self.theirs, Halves::One(_));
         let whole = self.comparison.family(Parts::Whole)?;
+        let target = TARGET * self.share;
         let deciding = |finding: &&Finding| finding.detectable == self.comparison.detectable_bias;
         let finding = whole.findings.iter().find(deciding)?;
-        if finding.detectable <= TARGET {
+        if finding.detectable <= target {
             return Some(f64::from(self.spp));
         }
         let [ours, theirs] = finding.errors.map(|error| error * error);
         // All errors shrink by this factor for the target.
-        let shrink = (TARGET - ROUNDING) / (finding.detectable - ROUNDING);
+        let shrink = (target - ROUNDING) / (finding.detectable - ROUNDING);
         let allowed = shrink * shrink * (ours + theirs);
         let factor = if fixed { ours / (allowed - theirs) } else { 1.0 / (shrink * shrink) };
-        (factor.is_finite() && factor > 0.0).then(|| factor * f64::from(self.spp))
+        let needed = SPARE * factor * f64::from(self.spp);
+        (factor.is_finite() && factor > 0.0).then(|| (needed / 16.0).ceil() * 16.0)
     }
 }
 
@@ -96,8 +120,9 @@ pub enum Theirs<'a> {
 }
 
 /// Renders `spp` samples and compares; with `power` until a difference of 0.5 % would show, a clear one does, or there
-/// are too many samples. What was rendered is kept.
+/// are too many samples. What was rendered is kept. `seen`: pixels that show more than background.
 pub fn run(
+    seen: &[bool],
     size: [usize; 2],
     spp: u32,
     power: bool,
@@ -124,9 +149,10 @@ pub fn run(
             }
         }
         let comparison = compare(&new, &other);
-        let now = Outcome { ours: new, theirs: other, comparison, spp };
+        let share = share(&new, seen);
+        let now = Outcome { ours: new, theirs: other, comparison, spp, share };
         tell(&now);
-        let done = now.comparison.detectable_bias <= TARGET || now.comparison.p < CLEAR || spp >= MAX_SPP;
+        let done = now.detectable_bias() <= TARGET || now.comparison.p < CLEAR || spp >= MAX_SPP;
         match now.spp_needed().filter(|_| power && !done) {
             Some(needed) => more = next(spp, needed),
             None => return Ok(now),
@@ -161,7 +187,7 @@ mod tests {
 
     #[test]
     fn rounds_grow_towards_what_is_needed_and_end_at_the_limit() {
-        assert_eq!(next(64, 80.0), 28);
+        assert_eq!(next(64, 80.0), 20);
         assert_eq!(next(64, 1e9), 512);
         assert_eq!(next(60_000, 1e9), 5536);
         assert!(next(65_530, 1e9) >= 16);
@@ -187,9 +213,17 @@ mod tests {
     fn power_renders_until_the_target_and_keeps_what_it_has() {
         let (mut ours, mut theirs) = (noisy(1, 1.0), noisy(2, 1.0));
         let mut rounds = Vec::new();
-        let outcome = run([64, 64], 16, true, &mut ours, Theirs::Renders(&mut theirs), &mut |outcome| {
-            rounds.push(outcome.spp);
-        });
+        let outcome = run(
+            &[true; 64 * 64],
+            [64, 64],
+            16,
+            true,
+            &mut ours,
+            Theirs::Renders(&mut theirs),
+            &mut |outcome| {
+                rounds.push(outcome.spp);
+            },
+        );
         let outcome = outcome.expect("renders");
         assert!(outcome.agrees(), "p {}", outcome.comparison.p);
         assert!(rounds.len() >= 2 && rounds.is_sorted());
@@ -201,7 +235,8 @@ mod tests {
     #[test]
     fn a_clear_difference_ends_the_rounds_early() {
         let (mut ours, mut theirs) = (noisy(1, 1.5), noisy(2, 1.0));
-        let outcome = run([64, 64], 16, true, &mut ours, Theirs::Renders(&mut theirs), &mut |_| {});
+        let outcome =
+            run(&[true; 64 * 64], [64, 64], 16, true, &mut ours, Theirs::Renders(&mut theirs), &mut |_| {});
         let outcome = outcome.expect("renders");
         assert!(outcome.differs() && outcome.spp == 16);
     }
@@ -209,11 +244,44 @@ mod tests {
     #[test]
     fn what_is_needed_is_what_does() {
         let (mut ours, mut theirs) = (noisy(3, 1.0), noisy(4, 1.0));
-        let outcome = run([64, 64], 64, false, &mut ours, Theirs::Renders(&mut theirs), &mut |_| {});
+        let outcome =
+            run(&[true; 64 * 64], [64, 64], 64, false, &mut ours, Theirs::Renders(&mut theirs), &mut |_| {});
         let needed = outcome.expect("renders").spp_needed().expect("there is a number").ceil() as u32;
         let (mut ours, mut theirs) = (noisy(3, 1.0), noisy(4, 1.0));
-        let outcome = run([64, 64], needed, false, &mut ours, Theirs::Renders(&mut theirs), &mut |_| {});
+        let outcome = run(
+            &[true; 64 * 64],
+            [64, 64],
+            needed,
+            false,
+            &mut ours,
+            Theirs::Renders(&mut theirs),
+            &mut |_| {},
+        );
         let reached = outcome.expect("renders").comparison.detectable_bias;
-        assert!((reached / TARGET - 1.0).abs() < 0.05, "{reached}");
+        assert!((0.9 * TARGET..TARGET).contains(&reached), "{reached}");
+    }
+
+    #[test]
+    fn a_background_without_noise_does_not_count_as_known() {
+        // A quarter of the pixels are noisy, the others a sky of the same brightness.
+        let before_sky = |seed: u32| {
+            let mut noise = noisy(seed, 1.0);
+            move |pass: u32, spp: u32| {
+                let mut planes = noise(pass, spp)?;
+                planes.iter_mut().for_each(|plane| plane[16 * 64..].fill(1.0));
+                Ok(planes)
+            }
+        };
+        let reach = |seen: &[bool]| {
+            let (mut ours, mut theirs) = (before_sky(5), before_sky(6));
+            let outcome =
+                run(seen, [64, 64], 64, false, &mut ours, Theirs::Renders(&mut theirs), &mut |_| {});
+            let outcome = outcome.expect("renders");
+            (outcome.detectable_bias(), outcome.spp_needed().expect("there is a number"))
+        };
+        let seen: Vec<bool> = (0..64 * 64).map(|p| p < 16 * 64).collect();
+        let ((all, few), (thing, many)) = (reach(&[true; 64 * 64]), reach(&seen));
+        assert!((thing / all - 4.0).abs() < 0.1, "{thing} {all}");
+        assert!(many > 10.0 * few, "{many} {few}");
     }
 }

@@ -47,7 +47,7 @@ impl Verdict {
 /// The answer in two or three sentences.
 pub fn sentences(outcome: &Outcome) -> String {
     let comparison = &outcome.comparison;
-    let reach = percent(comparison.detectable_bias);
+    let reach = percent(outcome.detectable_bias());
     let chance = format!("{:.0} %", 100.0 * POWER);
     match Verdict::of(outcome) {
         Verdict::Agree => format!(
@@ -57,7 +57,7 @@ pub fn sentences(outcome: &Outcome) -> String {
         ),
         Verdict::Differ => format!(
             "The pictures differ beyond noise (p = {} for all tests together): limpid is {} over the whole picture. {}",
-            number(comparison.p),
+            probability(comparison.p),
             brightness(comparison.mean_ratio),
             clearest(outcome),
         ),
@@ -74,8 +74,7 @@ pub fn sentences(outcome: &Outcome) -> String {
 fn cure(outcome: &Outcome) -> String {
     match outcome.spp_needed() {
         Some(needed) if needed <= f64::from(MAX_SPP) => {
-            let rounded = (1.1 * needed / 16.0).ceil() * 16.0;
-            format!("It takes about {rounded:.0} samples: `--spp {rounded:.0}`, or `--power`, which renders as many as it takes.")
+            format!("It takes about {needed:.0} samples: `--spp {needed:.0}`, or `--power`, which renders as many as it takes.")
         }
         Some(needed) => format!(
             "It would take about {needed:.0} samples; a smaller picture does not help, a simpler scene or light that is easier \
@@ -139,6 +138,11 @@ pub fn brightness(ratio: f64) -> String {
         percent if percent.is_nan() || percent.abs() < 5e-4 => "as bright".into(),
         percent => format!("{:.3} % {}", percent.abs(), if percent < 0.0 { "darker" } else { "brighter" }),
     }
+}
+
+/// A p value.
+pub fn probability(p: f64) -> String {
+    if p < f64::MIN_POSITIVE { "below 1e-300".into() } else { number(p) }
 }
 
 /// A number with three digits that count.

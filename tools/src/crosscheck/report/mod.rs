@@ -57,13 +57,15 @@ pub fn folders(scenes: &[PathBuf], output: Option<&Path>, json: bool) -> Vec<Opt
         .collect()
 }
 
-/// Makes a folder where it is not there.
+/// Makes a folder where it is not there; whether it was not.
 ///
 /// # Errors
 ///
 /// Where it cannot be made.
-pub fn make_folder(folder: &Path) -> Result<(), CliError> {
-    fs::create_dir_all(folder).map_err(|source| output_error(folder, source))
+pub fn make_folder(folder: &Path) -> Result<bool, CliError> {
+    let is_new = !folder.is_dir();
+    fs::create_dir_all(folder).map_err(|source| output_error(folder, source))?;
+    Ok(is_new)
 }
 
 /// Writes pictures and page.

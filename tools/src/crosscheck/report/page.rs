@@ -8,7 +8,7 @@ use base64::engine::general_purpose::STANDARD;
 use limpid_frame::compare::{Family, Finding, Parts};
 
 use super::super::rounds::{Outcome, TARGET};
-use super::super::verdict::{Verdict, brightness, number, parts_in_words, percent};
+use super::super::verdict::{Verdict, brightness, number, parts_in_words, percent, probability};
 use super::About;
 
 /// Places that are listed.
@@ -41,20 +41,20 @@ pub fn page(about: &About, outcome: &Outcome, shown: &Shown) -> String {
         ("OTHER", escaped(about.other)),
         ("CLASS", verdict.class().to_owned()),
         ("WORD", verdict.word().to_owned()),
-        ("VERDICT", escaped(about.verdict)),
+        ("VERDICT", code(&escaped(about.verdict))),
         ("WIDTH", width.to_string()),
         ("HEIGHT", height.to_string()),
         ("SPP", outcome.spp.to_string()),
         ("RATIO", brightness(comparison.mean_ratio)),
-        ("REACH", percent(comparison.detectable_bias)),
+        ("REACH", percent(outcome.detectable_bias())),
         ("TARGET", percent(TARGET)),
-        ("P", number(comparison.p)),
+        ("P", probability(comparison.p)),
         ("FAMILIES", families(&comparison.families)),
         ("PLACES", places_table(&places)),
         ("BOXES", boxes(&places)),
         ("NOTES", list(about.notes)),
         ("WARNINGS", warnings(about.warnings)),
-        ("LEFT_OUT", comparison.left_out.to_string()),
+        ("LEFT_OUT", left_out(outcome)),
         ("EV", format!("{:+.1}", shown.ev)),
         ("FULL", number(shown.full)),
         ("BLOCK", escaped(&parts_in_words(shown.blocks.parts))),
@@ -66,6 +66,33 @@ pub fn page(about: &About, outcome: &Outcome, shown: &Shown) -> String {
         ("PICTURE_3", STANDARD.encode(&shown.pictures[3])),
     ];
     filled(include_str!("page.html"), &fields)
+}
+
+/// What does not count, as items of a list.
+fn left_out(outcome: &Outcome) -> String {
+    let mut items = String::new();
+    if outcome.share < 1.0 {
+        let background = percent(1.0 - outcome.share);
+        let _ = write!(
+            items,
+            "<li>{background} of the light comes from pixels that show nothing but the background. They are compared like all others, but how \
+             well they are known does not count for what would have been found</li>"
+        );
+    }
+    if outcome.comparison.left_out > 0 {
+        let _ = write!(
+            items,
+            "<li>{} pixels were left out because they are not finite in one of the pictures, or lie in the border of a wide filter</li>",
+            outcome.comparison.left_out
+        );
+    }
+    items
+}
+
+/// What stands between backticks, as code.
+fn code(text: &str) -> String {
+    let parts = text.split('`').enumerate();
+    parts.map(|(i, part)| if i % 2 == 1 { format!("<code>{part}</code>") } else { part.to_owned() }).collect()
 }
 
 /// The page of several scenes: a table with links. Each row is a scene, its folder, its outcome and the verdict.
@@ -82,7 +109,7 @@ pub fn index(rows: &[(String, String, Verdict, f64, f64, f64)]) -> String {
             verdict.word(),
             brightness(*ratio),
             percent(*reach),
-            number(*p),
+            probability(*p),
         );
     }
     filled(include_str!("index.html"), &[("ROWS", table), ("TARGET", percent(TARGET))])
@@ -120,7 +147,7 @@ fn families(families: &[Family]) -> String {
             if alarms > 0 { " class=\"differ\"" } else { "" },
             escaped(&parts_in_words(family.parts)),
             family.findings.len(),
-            number(least),
+            probability(least),
             number(family.level),
             alarms,
             in_words(middle),
@@ -174,7 +201,7 @@ fn places_table(places: &[(Finding, bool)]) -> String {
             number(finding.means[1]),
             100.0 * finding.bias(),
             percent(finding.error() / finding.means[1].abs().max(f64::MIN_POSITIVE)),
-            number(finding.p),
+            probability(finding.p),
             if *alarm { "alarm" } else { "chance" },
         );
     }
