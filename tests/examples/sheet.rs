@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use image::codecs::jpeg::JpegEncoder;
 use limpid_frame::{FrameError, read_exr, write_png};
 use limpid_tests::start::call;
 use limpid_tests::table;
@@ -19,11 +20,13 @@ use limpid_tests::table;
 const SIDE: u32 = 144;
 const SPP: u32 = 256;
 const COLUMNS: usize = 4;
+/// Of the JPEGs, of 100.
+const QUALITY: u8 = 88;
 /// Height of the words under a pair, and the way between pairs.
 const WORDS: u32 = 18;
 const GAP: u32 = 12;
 
-/// A pair of PNGs under one name; the second may be missing.
+/// A pair of JPEGs under one name; the second may be missing.
 struct Pair {
     name: String,
     ours: Vec<u8>,
@@ -80,23 +83,32 @@ fn pair(name: &str, scene: &Path, work: &Path) -> Result<Pair, String> {
     if rendered.code != 0 {
         return Err(rendered.stderr);
     }
-    let png = |frame: &Path| {
+    let shown = |frame: &Path| {
         let png = work.join("shown.png");
         let said = |e: FrameError| e.to_string();
         let frame = read_exr(frame).map_err(said)?;
         let rgb = frame.rgb().map_err(said)?;
         write_png(rgb, frame.width(), frame.height(), 0.0, &png).map_err(said)?;
-        std::fs::read(&png).map_err(|e| e.to_string())
+        smaller(&png)
     };
     let checked = with("crosscheck", &[Path::new("-o"), &report]);
     let theirs = match checked.code {
-        0 | 1 => Some(png(&report.join("mitsuba.exr"))?),
+        0 | 1 => Some(shown(&report.join("mitsuba.exr"))?),
         _ => {
             eprintln!("{name}: {}", checked.stderr.trim());
             None
         }
     };
-    Ok(Pair { name: name.into(), ours: png(&frame)?, theirs })
+    Ok(Pair { name: name.into(), ours: shown(&frame)?, theirs })
+}
+
+/// A picture as JPEG: noise makes large PNGs.
+fn smaller(png: &Path) -> Result<Vec<u8>, String> {
+    let said = |e: image::ImageError| e.to_string();
+    let picture = image::open(png).map_err(said)?.into_rgb8();
+    let mut bytes = Vec::new();
+    JpegEncoder::new_with_quality(&mut bytes, QUALITY).encode_image(&picture).map_err(said)?;
+    Ok(bytes)
 }
 
 fn svg(pairs: &[Pair]) -> String {
@@ -111,12 +123,12 @@ fn svg(pairs: &[Pair]) -> String {
     );
     for (i, pair) in pairs.iter().enumerate() {
         let [x, y] = [GAP + wide * (i % columns) as u32, GAP + high * (i / columns) as u32];
-        for (k, png) in [Some(&pair.ours), pair.theirs.as_ref()].into_iter().enumerate() {
-            let Some(png) = png else { continue };
-            let data = STANDARD.encode(png);
+        for (k, picture) in [Some(&pair.ours), pair.theirs.as_ref()].into_iter().enumerate() {
+            let Some(picture) = picture else { continue };
+            let data = STANDARD.encode(picture);
             let x = x + SIDE * k as u32;
             svg += &format!(
-                r#"<image x="{x}" y="{y}" width="{SIDE}" height="{SIDE}" href="data:image/png;base64,{data}"/>"#
+                r#"<image x="{x}" y="{y}" width="{SIDE}" height="{SIDE}" href="data:image/jpeg;base64,{data}"/>"#
             );
             svg.push('\n');
         }
