@@ -189,6 +189,29 @@ impl Accel {
         }
     }
 
+    /// [`closest`](Self::closest) of the triangles by the scalar kernel.
+    #[cfg(any(test, feature = "bench"))]
+    pub fn closest_scalar(&self, rays: &[Ray], hits: &mut [Hit]) {
+        for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
+            *hit = Hit { t: ray.t_max, ..Hit::MISS };
+        }
+        kernel::scalar_closest(&self.top.triangles, rays, hits);
+        hits.iter_mut().filter(|hit| hit.prim == NONE).for_each(|hit| *hit = Hit::MISS);
+    }
+
+    /// [`occluded`](Self::occluded) of the triangles by the scalar kernel.
+    #[cfg(any(test, feature = "bench"))]
+    pub fn occluded_scalar(&self, rays: &[Ray], blocked: &mut [bool]) {
+        blocked.fill(false);
+        kernel::scalar_occluded(&self.top.triangles, rays, blocked);
+    }
+
+    /// Size of the tree over the triangles with its leaves.
+    #[cfg(feature = "bench")]
+    pub fn triangle_bytes(&self) -> usize {
+        self.top.triangles.bytes()
+    }
+
     /// Radius of a sphere around everything; 0 for an empty scene.
     pub fn radius(&self) -> f64 {
         self.bounds.radius()

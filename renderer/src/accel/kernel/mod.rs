@@ -106,6 +106,12 @@ impl<B> Tree<B> {
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
+
+    /// Size of nodes and blocks.
+    #[cfg(feature = "bench")]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..])
+    }
 }
 
 /// What a ray's tests need beside it: axes permuted so that the direction's largest component comes last, and
@@ -152,9 +158,15 @@ impl ShearedRay {
 }
 
 /// The reference, whatever the processor has.
-#[cfg(test)]
+#[cfg(any(test, feature = "bench"))]
 pub fn scalar_closest<B: Blocks>(tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
     scalar::closest(tree, rays, hits)
+}
+
+/// The reference, whatever the processor has.
+#[cfg(any(test, feature = "bench"))]
+pub fn scalar_occluded<B: Blocks>(tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
+    scalar::occluded(tree, rays, blocked)
 }
 
 /// The nearest hit of each ray that beats the one in `hits`.
