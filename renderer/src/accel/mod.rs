@@ -19,6 +19,7 @@ pub use analytic::{Analytic, AnalyticKind};
 pub use build::Bounds;
 use instance::Placed;
 pub use instance::{Instance, image};
+use kernel::Order::{Interleaved, OneByOne};
 use kernel::Tree;
 use triangle::TriangleBlock;
 
@@ -100,12 +101,16 @@ impl Level {
         let mut bounds = Bounds::EMPTY;
         triangle_bounds.iter().chain(&analytic_bounds).for_each(|b| bounds = bounds.union(b));
         Self {
-            triangles: build::wide_tree(&triangle_bounds, |indices| {
-                TriangleBlock::new(prims.triangles, prims.first_triangle, indices)
-            }),
-            analytics: build::wide_tree(&analytic_bounds, |indices| {
-                Analytics::new(prims.analytics, prims.first_analytic, indices)
-            }),
+            triangles: build::wide_tree(
+                &triangle_bounds,
+                |indices| TriangleBlock::fits(prims.triangles, indices),
+                |indices| TriangleBlock::new(prims.triangles, prims.first_triangle, indices),
+            ),
+            analytics: build::wide_tree(
+                &analytic_bounds,
+                |_| true,
+                |indices| Analytics::new(prims.analytics, prims.first_analytic, indices),
+            ),
             bounds,
             center: 0.5 * (bounds.min.as_dvec3() + bounds.max.as_dvec3()),
             radius: bounds.radius(),
@@ -143,11 +148,12 @@ impl Accel {
             })
             .collect();
         boxes.iter().for_each(|b| bounds = bounds.union(b));
-        let instances = build::wide_tree(&boxes, |indices| {
+        let place = |indices: &[u32]| {
             let index = shown[indices[0] as usize];
             let instance = &instances[index as usize];
             Placed::new(instance, index, &groups[instance.group as usize])
-        });
+        };
+        let instances = build::wide_tree(&boxes, |_| true, place);
         Self { top, instances, bounds }
     }
 
@@ -163,12 +169,12 @@ impl Accel {
         for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
             *hit = Hit { t: ray.t_max, ..Hit::MISS };
         }
-        kernel::closest(&self.top.triangles, rays, hits);
+        kernel::closest(Interleaved, &self.top.triangles, rays, hits);
         if !self.top.analytics.is_empty() {
-            kernel::closest(&self.top.analytics, rays, hits);
+            kernel::closest(OneByOne, &self.top.analytics, rays, hits);
         }
         if !self.instances.is_empty() {
-            kernel::closest(&self.instances, rays, hits);
+            kernel::closest(OneByOne, &self.instances, rays, hits);
         }
         for hit in hits {
             if hit.prim == NONE {
@@ -180,12 +186,12 @@ impl Accel {
     /// Whether anything lies on each ray before its `t_max`. Both slices have the same length.
     pub fn occluded(&self, rays: &[Ray], blocked: &mut [bool]) {
         blocked.fill(false);
-        kernel::occluded(&self.top.triangles, rays, blocked);
+        kernel::occluded(Interleaved, &self.top.triangles, rays, blocked);
         if !self.top.analytics.is_empty() {
-            kernel::occluded(&self.top.analytics, rays, blocked);
+            kernel::occluded(OneByOne, &self.top.analytics, rays, blocked);
         }
         if !self.instances.is_empty() {
-            kernel::occluded(&self.instances, rays, blocked);
+            kernel::occluded(OneByOne, &self.instances, rays, blocked);
         }
     }
 

@@ -1,85 +1,88 @@
 //! Traversal of eight-wide trees.
 //!
-//! There is one source, [`scalar`]; the others compile it again with wider instructions enabled, and the
-//! best that the processor has is chosen at run time. Rust never fuses a multiplication with an addition by
-//! itself, so that all of them give the same hits to the bit.
+//! [`scalar`] is the specification of the two innermost steps, the test of a node's eight boxes and that of a leaf's four
+//! triangles; [`x86`] does the same operations in the same order on AVX2 registers, compiled for AVX2 and for AVX-512, and the
+//! best that the processor has is chosen at run time. No multiplication is fused with an addition, so that
+//! all of them visit the same nodes and give the same hits to the bit.
+//!
+//! [`along`] follows one ray through a tree, [`batch`] many at a time.
 
+mod along;
+mod batch;
+mod node;
 mod scalar;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use glam::{DVec3, Vec3};
-pub use scalar::{Entry, Slabs, closest_along, occluded_along};
+use glam::DVec3;
+
+pub use along::{Slabs, Stack, closest_along, occluded_along};
+pub use node::{Child, Node, WIDTH};
 
 use super::{Hit, Ray};
 
-/// Children of a node.
-pub const WIDTH: usize = 8;
+/// Triangles of a leaf.
+pub const LANES: usize = 4;
+/// Corners of a leaf's triangles.
+pub const CORNERS: usize = 8;
 
 /// What a leaf holds: up to a block of primitives.
 pub trait Blocks {
     /// Most primitives of a block.
     const MOST: usize;
-    /// Replaces `hit` by a nearer one of this block. `stack` has room for what the block asks for.
-    fn closest(&self, ray: &Ray, sheared: &ShearedRay, stack: &mut [Entry], hit: &mut Hit);
+    /// Replaces `hit` by a nearer one of this block. `stack` has room for what the block asks for from `base` on.
+    fn closest<I: Isa>(
+        &self,
+        isa: I,
+        ray: &Ray,
+        sheared: &ShearedRay,
+        stack: &mut Stack,
+        base: usize,
+        hit: &mut Hit,
+    );
     /// Whether anything of this block lies before `ray.t_max`.
-    fn occluded(&self, ray: &Ray, sheared: &ShearedRay, stack: &mut [Child]) -> bool;
+    fn occluded<I: Isa>(
+        &self,
+        isa: I,
+        ray: &Ray,
+        sheared: &ShearedRay,
+        stack: &mut Stack,
+        base: usize,
+    ) -> bool;
     /// Stack entries that the block needs for a traversal of its own.
     fn stack_need(&self) -> usize {
         0
     }
 }
 
-/// A link to a node or to a leaf's block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Child(u32);
+/// An instruction set: the two steps that are written for each.
+pub trait Isa: Copy {
+    /// Writes the children whose boxes the ray meets before `limit`, the nearest last if `SORTED`, with their keys (see
+    /// [`scalar::visit`]); returns how many. What lies beyond these in the arrays is arbitrary.
+    fn visit<const INSIDE: bool, const SORTED: bool>(
+        self,
+        node: &Node,
+        slabs: &Slabs<INSIDE>,
+        limit: f32,
+        keys: &mut [u32; WIDTH],
+        links: &mut [Child; WIDTH],
+    ) -> usize;
 
-impl Child {
-    const LEAF: u32 = 1 << 31;
-    /// No child: its box is never hit.
-    pub const NONE: Self = Self(u32::MAX);
+    /// Bit mask of the triangles that the ray is not outside of, and all edge functions (see [`scalar::inside`]).
+    fn inside(self, corners: &Corners, sheared: &ShearedRay, edges: &mut [[f64; LANES]; 3]) -> u32;
 
-    /// A link to an inner node.
-    pub fn node(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    /// A link to a block.
-    pub fn leaf(index: usize) -> Self {
-        Self(index as u32 | Self::LEAF)
-    }
+    /// Asks for the two cache lines at `data`.
+    fn prefetch<T>(self, data: *const T);
 }
 
-/// Eight boxes in columns: `planes[0..3]` are the minima of x, y, z and `planes[3..6]` the maxima.
+/// Up to four triangles with their corners in columns: `v[axis][corner]`. Corners of equal position are one.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
-pub struct Node {
-    planes: [[f32; WIDTH]; 6],
-    child: [Child; WIDTH],
-}
-
-impl Node {
-    /// No children: minima above maxima are never hit.
-    pub const EMPTY: Self = Self {
-        planes: [
-            [f32::INFINITY; WIDTH],
-            [f32::INFINITY; WIDTH],
-            [f32::INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-        ],
-        child: [Child::NONE; WIDTH],
-    };
-
-    /// Puts a child into a lane.
-    pub fn set(&mut self, lane: usize, min: Vec3, max: Vec3, child: Child) {
-        for axis in 0..3 {
-            self.planes[axis][lane] = min[axis];
-            self.planes[axis + 3][lane] = max[axis];
-        }
-        self.child[lane] = child;
-    }
+#[repr(C)]
+pub struct Corners {
+    /// Coordinates.
+    pub v: [[f32; CORNERS]; 3],
+    /// The corner that is the first, second, third vertex of each triangle.
+    pub index: [[u8; LANES]; 3],
 }
 
 /// A wide tree with its leaves.
@@ -144,7 +147,7 @@ impl ShearedRay {
         } else {
             2
         };
-        let (kx, ky) = ((kz + 1) % 3, (kz + 2) % 3);
+        let (kx, ky) = ([1, 2, 0][kz], [2, 0, 1][kz]);
         let inverse = 1.0 / ray.d[kz];
         Self {
             k: [kx, ky, kz],
@@ -157,32 +160,69 @@ impl ShearedRay {
     }
 }
 
-/// The reference, whatever the processor has.
-#[cfg(any(test, feature = "bench"))]
-pub fn scalar_closest<B: Blocks>(tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
-    scalar::closest(tree, rays, hits)
-}
-
-/// The reference, whatever the processor has.
-#[cfg(any(test, feature = "bench"))]
-pub fn scalar_occluded<B: Blocks>(tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
-    scalar::occluded(tree, rays, blocked)
+/// How rays go through a tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// Each to its end. Best where leaves are costly.
+    OneByOne,
+    /// Many at a time, so that memory is waited for once for all of them.
+    Interleaved,
 }
 
 /// The nearest hit of each ray that beats the one in `hits`.
-pub fn closest<B: Blocks>(tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
+pub fn closest<B: Blocks>(order: Order, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
     #[cfg(target_arch = "x86_64")]
     if let Some(level) = x86::Level::detected() {
-        return x86::closest(level, tree, rays, hits);
+        return x86::closest(level, order, tree, rays, hits);
     }
-    scalar::closest(tree, rays, hits)
+    closest_with(scalar::Scalar, order, tree, rays, hits)
 }
 
 /// Sets `blocked` where anything lies before a ray's `t_max`; what is set stays set.
-pub fn occluded<B: Blocks>(tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
+pub fn occluded<B: Blocks>(order: Order, tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
     #[cfg(target_arch = "x86_64")]
     if let Some(level) = x86::Level::detected() {
-        return x86::occluded(level, tree, rays, blocked);
+        return x86::occluded(level, order, tree, rays, blocked);
     }
-    scalar::occluded(tree, rays, blocked)
+    occluded_with(scalar::Scalar, order, tree, rays, blocked)
+}
+
+#[inline(always)]
+fn closest_with<I: Isa, B: Blocks>(isa: I, order: Order, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
+    if tree.is_empty() {
+        return;
+    }
+    match order {
+        Order::OneByOne => along::closest(isa, tree, rays, hits),
+        Order::Interleaved => batch::closest(isa, tree, rays, hits),
+    }
+}
+
+#[inline(always)]
+fn occluded_with<I: Isa, B: Blocks>(
+    isa: I,
+    order: Order,
+    tree: &Tree<B>,
+    rays: &[Ray],
+    blocked: &mut [bool],
+) {
+    if tree.is_empty() {
+        return;
+    }
+    match order {
+        Order::OneByOne => along::occluded(isa, tree, rays, blocked),
+        Order::Interleaved => batch::occluded(isa, tree, rays, blocked),
+    }
+}
+
+/// The reference, whatever the processor has: scalar and a ray at a time.
+#[cfg(any(test, feature = "bench"))]
+pub fn scalar_closest<B: Blocks>(tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
+    closest_with(scalar::Scalar, Order::OneByOne, tree, rays, hits)
+}
+
+/// The reference, whatever the processor has: scalar and a ray at a time.
+#[cfg(any(test, feature = "bench"))]
+pub fn scalar_occluded<B: Blocks>(tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
+    occluded_with(scalar::Scalar, Order::OneByOne, tree, rays, blocked)
 }

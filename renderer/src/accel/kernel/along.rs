@@ -1,0 +1,197 @@
+//! One ray's way through a tree.
+
+use super::node::{Child, Node, WIDTH};
+use super::{Blocks, Isa, ShearedRay, Tree};
+use crate::accel::{Hit, Ray};
+
+/// Slab distances carry a few roundings each; widening the far side keeps the box test conservative (Ize 2013).
+pub const WIDEN: f32 = 1.0 + 8.0 * f32::EPSILON;
+
+/// Largest inverse of a direction's component: what is multiplied by it stays finite in most scenes, and where it does not,
+/// the boxes are not tested along that axis. A ray moves less than 2⁻⁹⁶ of its way along an axis for which this is not
+/// the inverse: that is far within the boxes' margin.
+const LARGEST_INVERSE: f32 = (1u128 << 96) as f32;
+
+/// What the box tests of one ray need. `INSIDE` an instance the ray was rounded: boxes are padded by how far it may be
+/// from the true one, and its distances are counted from elsewhere, in another unit.
+#[derive(Clone, Copy)]
+pub struct Slabs<const INSIDE: bool> {
+    /// The ray's origin; the fourth is 0, here and below.
+    pub o: [f32; 4],
+    /// The origin against which the far planes are tested, where boxes are padded.
+    pub o_far: [f32; 4],
+    /// Of the direction's components.
+    pub inverse: [f32; 4],
+    /// The plane of each axis through which the ray enters a box; it leaves through the other.
+    pub near: [usize; 3],
+    /// The other.
+    pub far: [usize; 3],
+    distances: [f64; 2],
+}
+
+impl Slabs<false> {
+    /// Of a ray as it is.
+    #[inline(always)]
+    pub fn new(ray: &Ray) -> Self {
+        Self::padded(ray, [0.0; 3], [0.0, 1.0])
+    }
+}
+
+impl<const INSIDE: bool> Slabs<INSIDE> {
+    /// With boxes larger by `pad` along each axis; `distances` as in [`ShearedRay`].
+    #[inline(always)]
+    pub fn padded(ray: &Ray, pad: [f32; 3], distances: [f64; 2]) -> Self {
+        let (o, d) = (ray.o.to_array(), ray.d.to_array());
+        let towards = |a: usize, by: f32| if d[a] < 0.0 { o[a] - by } else { o[a] + by };
+        let with_zero = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
+        Self {
+            o: with_zero(std::array::from_fn(|a| if INSIDE { towards(a, pad[a]) } else { o[a] })),
+            o_far: with_zero(std::array::from_fn(|a| if INSIDE { towards(a, -pad[a]) } else { o[a] })),
+            inverse: with_zero(d.map(|d| (1.0 / d).clamp(-LARGEST_INVERSE, LARGEST_INVERSE))),
+            near: std::array::from_fn(|a| if d[a] < 0.0 { a + 3 } else { a }),
+            far: std::array::from_fn(|a| if d[a] < 0.0 { a } else { a + 3 }),
+            distances,
+        }
+    }
+
+    /// Boxes that are entered farther away than this cannot hold a hit before the distance `t`. Finite.
+    #[inline(always)]
+    pub fn limit(&self, t: f32) -> f32 {
+        let limit = if INSIDE {
+            // The distance was rounded to f32 where it is large; what is left of it here may be small.
+            let [start, unit] = self.distances;
+            ((f64::from(t) * f64::from(WIDEN) - start) / unit * f64::from(WIDEN)) as f32
+        } else {
+            t * WIDEN
+        };
+        limit.min(f32::MAX)
+    }
+}
+
+/// Nodes and leaves to visit, with their keys.
+pub struct Stack {
+    /// See [`scalar::visit`](super::scalar::visit).
+    pub keys: Vec<u32>,
+    /// Links.
+    pub links: Vec<Child>,
+}
+
+impl Stack {
+    /// With room for `entries`, and for the unused lanes of the last write.
+    pub fn new(entries: usize) -> Self {
+        Self { keys: vec![0; entries + WIDTH], links: vec![Child::NONE; entries + WIDTH] }
+    }
+
+    /// Puts the children that the ray meets on top; returns the new top.
+    #[inline(always)]
+    pub fn push_met<I: Isa, const INSIDE: bool, const SORTED: bool>(
+        &mut self,
+        isa: I,
+        node: &Node,
+        slabs: &Slabs<INSIDE>,
+        limit: f32,
+        top: usize,
+    ) -> usize {
+        let keys = self.keys[top..].first_chunk_mut().expect("there is room for all lanes above the top");
+        let links = self.links[top..].first_chunk_mut().expect("there is room for all lanes above the top");
+        top + isa.visit::<INSIDE, SORTED>(node, slabs, limit, keys, links)
+    }
+
+    /// Removes what is entered beyond `limit` from the entries `base..top`; returns the new top.
+    #[inline(always)]
+    pub fn drop_beyond(&mut self, limit: f32, base: usize, top: usize) -> usize {
+        let (keys, links) = (&mut self.keys[base..top], &mut self.links[base..top]);
+        let mut kept = 0;
+        for i in 0..keys.len() {
+            let (key, link) = (keys[i], links[i]);
+            (keys[kept], links[kept]) = (key, link);
+            kept += usize::from(f32::from_bits(key & !7) <= limit);
+        }
+        base + kept
+    }
+}
+
+/// The rays one by one.
+#[inline(always)]
+pub fn closest<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
+    let mut stack = Stack::new(tree.stack_need + tree.block_need);
+    for (ray, hit) in rays.iter().zip(hits) {
+        closest_along(isa, tree, ray, &Slabs::new(ray), &ShearedRay::new(ray), &mut stack, 0, hit);
+    }
+}
+
+/// One ray's way through a tree that is not empty, with the entries of `stack` from `base` on.
+#[inline(always)]
+#[expect(clippy::too_many_arguments)]
+pub fn closest_along<I: Isa, B: Blocks, const INSIDE: bool>(
+    isa: I,
+    tree: &Tree<B>,
+    ray: &Ray,
+    slabs: &Slabs<INSIDE>,
+    sheared: &ShearedRay,
+    stack: &mut Stack,
+    base: usize,
+    hit: &mut Hit,
+) {
+    let of_blocks = base + tree.stack_need;
+    let mut limit = slabs.limit(hit.t);
+    let mut top = base;
+    let mut child = Child::node(0);
+    loop {
+        if child.is_node() {
+            top = stack.push_met::<I, INSIDE, true>(isa, &tree.nodes[child.index()], slabs, limit, top);
+        } else {
+            let before = hit.t;
+            tree.blocks[child.index()].closest(isa, ray, sheared, stack, of_blocks, hit);
+            if hit.t < before {
+                limit = slabs.limit(hit.t);
+                top = stack.drop_beyond(limit, base, top);
+            }
+        }
+        if top == base {
+            return;
+        }
+        top -= 1;
+        child = stack.links[top];
+    }
+}
+
+/// The rays one by one.
+#[inline(always)]
+pub fn occluded<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
+    let mut stack = Stack::new(tree.stack_need + tree.block_need);
+    for (ray, blocked) in rays.iter().zip(blocked) {
+        if !*blocked {
+            *blocked = occluded_along(isa, tree, ray, &Slabs::new(ray), &ShearedRay::new(ray), &mut stack, 0);
+        }
+    }
+}
+
+/// Whether one ray meets anything on its way through a tree that is not empty.
+#[inline(always)]
+pub fn occluded_along<I: Isa, B: Blocks, const INSIDE: bool>(
+    isa: I,
+    tree: &Tree<B>,
+    ray: &Ray,
+    slabs: &Slabs<INSIDE>,
+    sheared: &ShearedRay,
+    stack: &mut Stack,
+    base: usize,
+) -> bool {
+    let of_blocks = base + tree.stack_need;
+    let limit = slabs.limit(ray.t_max);
+    let mut top = base;
+    let mut child = Child::node(0);
+    loop {
+        if child.is_node() {
+            top = stack.push_met::<I, INSIDE, false>(isa, &tree.nodes[child.index()], slabs, limit, top);
+        } else if tree.blocks[child.index()].occluded(isa, ray, sheared, stack, of_blocks) {
+            return true;
+        }
+        if top == base {
+            return false;
+        }
+        top -= 1;
+        child = stack.links[top];
+    }
+}
