@@ -89,7 +89,7 @@ pub fn wide_tree<B: Blocks>(
         children.clear();
         plan.children(&bvh, binary, &mut children);
         let used = used + children.len();
-        tree.stack_need = tree.stack_need.max(used + 1);
+        tree.stack_need = tree.stack_need.max(used + 2); // and the end's mark
         boxes.clear();
         for &child in &children {
             let aabb = bvh.nodes[child].aabb();

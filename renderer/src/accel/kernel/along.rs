@@ -1,5 +1,7 @@
 //! One ray's way through a tree.
 
+use std::hint::select_unpredictable;
+
 use super::node::{Child, Node, WIDTH};
 use super::{Blocks, Isa, ShearedRay, Tree};
 use crate::accel::{Hit, Ray};
@@ -26,6 +28,8 @@ pub struct Slabs<const INSIDE: bool> {
     pub near: [usize; 3],
     /// The other.
     pub far: [usize; 3],
+    /// A bit for each axis along which the ray goes down.
+    pub octant: usize,
     distances: [f64; 2],
 }
 
@@ -50,6 +54,7 @@ impl<const INSIDE: bool> Slabs<INSIDE> {
             inverse: with_zero(d.map(|d| (1.0 / d).clamp(-LARGEST_INVERSE, LARGEST_INVERSE))),
             near: std::array::from_fn(|a| if d[a] < 0.0 { a + 3 } else { a }),
             far: std::array::from_fn(|a| if d[a] < 0.0 { a } else { a + 3 }),
+            octant: (0..3).map(|a| usize::from(d[a] < 0.0) << a).sum(),
             distances,
         }
     }
@@ -68,46 +73,56 @@ impl<const INSIDE: bool> Slabs<INSIDE> {
     }
 }
 
-/// Nodes and leaves to visit, with their keys.
+/// Nodes and leaves to visit, with the distances at which their boxes are entered.
 pub struct Stack {
-    /// See [`scalar::visit`](super::scalar::visit).
-    pub keys: Vec<u32>,
-    /// Links.
-    pub links: Vec<Child>,
+    enters: Vec<f32>,
+    links: Vec<Child>,
 }
 
 impl Stack {
-    /// With room for `entries`, and for the unused lanes of the last write.
+    /// With room for `entries`, and for the unused lanes of the last write. All are [`Child::NONE`].
     pub fn new(entries: usize) -> Self {
-        Self { keys: vec![0; entries + WIDTH], links: vec![Child::NONE; entries + WIDTH] }
+        Self { enters: vec![0.0; entries + WIDTH], links: vec![Child::NONE; entries + WIDTH] }
     }
 
-    /// Puts the children that the ray meets on top; returns the new top.
+    /// Visits a node: of the children that the ray meets the nearest is returned, and the others are put on top; where there
+    /// is none, the topmost entry is taken off and returned. The stack is not empty.
     #[inline(always)]
-    pub fn push_met<I: Isa, const INSIDE: bool, const SORTED: bool>(
+    pub fn visit<I: Isa, const INSIDE: bool>(
         &mut self,
         isa: I,
         node: &Node,
         slabs: &Slabs<INSIDE>,
         limit: f32,
-        top: usize,
-    ) -> usize {
-        let keys = self.keys[top..].first_chunk_mut().expect("there is room for all lanes above the top");
-        let links = self.links[top..].first_chunk_mut().expect("there is room for all lanes above the top");
-        top + isa.visit::<INSIDE, SORTED>(node, slabs, limit, keys, links)
+        top: &mut usize,
+    ) -> Child {
+        let last = self.links[*top - 1];
+        let enters =
+            self.enters[*top..].first_chunk_mut().expect("there is room for all lanes above the top");
+        let links = self.links[*top..].first_chunk_mut().expect("there is room for all lanes above the top");
+        let met = isa.visit(node, slabs, limit, enters, links);
+        *top = *top + met.others - usize::from(!met.any);
+        select_unpredictable(met.any, met.nearest, last)
     }
 
-    /// Removes what is entered beyond `limit` from the entries `base..top`; returns the new top.
+    /// Takes the topmost entry off.
     #[inline(always)]
-    pub fn drop_beyond(&mut self, limit: f32, base: usize, top: usize) -> usize {
-        let (keys, links) = (&mut self.keys[base..top], &mut self.links[base..top]);
+    pub fn pop(&mut self, top: &mut usize) -> Child {
+        *top -= 1;
+        self.links[*top]
+    }
+
+    /// Removes what is entered beyond `limit` from the entries `base..top`.
+    #[inline(always)]
+    pub fn drop_beyond(&mut self, limit: f32, base: usize, top: &mut usize) {
+        let (enters, links) = (&mut self.enters[base..*top], &mut self.links[base..*top]);
         let mut kept = 0;
-        for i in 0..keys.len() {
-            let (key, link) = (keys[i], links[i]);
-            (keys[kept], links[kept]) = (key, link);
-            kept += usize::from(f32::from_bits(key & !7) <= limit);
+        for i in 0..enters.len() {
+            let (enter, link) = (enters[i], links[i]);
+            (enters[kept], links[kept]) = (enter, link);
+            kept += usize::from(enter <= limit);
         }
-        base + kept
+        *top = base + kept;
     }
 }
 
@@ -135,24 +150,21 @@ pub fn closest_along<I: Isa, B: Blocks, const INSIDE: bool>(
 ) {
     let of_blocks = base + tree.stack_need;
     let mut limit = slabs.limit(hit.t);
-    let mut top = base;
+    stack.links[base] = Child::NONE;
+    let mut top = base + 1;
     let mut child = Child::node(0);
-    loop {
+    while child != Child::NONE {
         if child.is_node() {
-            top = stack.push_met::<I, INSIDE, true>(isa, &tree.nodes[child.index()], slabs, limit, top);
-        } else {
-            let before = hit.t;
-            tree.blocks[child.index()].closest(isa, ray, sheared, stack, of_blocks, hit);
-            if hit.t < before {
-                limit = slabs.limit(hit.t);
-                top = stack.drop_beyond(limit, base, top);
-            }
+            child = stack.visit(isa, &tree.nodes[child.index()], slabs, limit, &mut top);
+            continue;
         }
-        if top == base {
-            return;
+        let before = hit.t;
+        tree.blocks[child.index()].closest(isa, ray, sheared, stack, of_blocks, hit);
+        if hit.t < before {
+            limit = slabs.limit(hit.t);
+            stack.drop_beyond(limit, base + 1, &mut top);
         }
-        top -= 1;
-        child = stack.links[top];
+        child = stack.pop(&mut top);
     }
 }
 
@@ -180,18 +192,18 @@ pub fn occluded_along<I: Isa, B: Blocks, const INSIDE: bool>(
 ) -> bool {
     let of_blocks = base + tree.stack_need;
     let limit = slabs.limit(ray.t_max);
-    let mut top = base;
+    stack.links[base] = Child::NONE;
+    let mut top = base + 1;
     let mut child = Child::node(0);
-    loop {
+    while child != Child::NONE {
         if child.is_node() {
-            top = stack.push_met::<I, INSIDE, false>(isa, &tree.nodes[child.index()], slabs, limit, top);
-        } else if tree.blocks[child.index()].occluded(isa, ray, sheared, stack, of_blocks) {
+            child = stack.visit(isa, &tree.nodes[child.index()], slabs, limit, &mut top);
+            continue;
+        }
+        if tree.blocks[child.index()].occluded(isa, ray, sheared, stack, of_blocks) {
             return true;
         }
-        if top == base {
-            return false;
-        }
-        top -= 1;
-        child = stack.links[top];
+        child = stack.pop(&mut top);
     }
+    false
 }

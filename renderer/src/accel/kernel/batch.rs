@@ -5,6 +5,8 @@
 //! by its next turn, a microsecond's worth of other rays' steps later, that has come. Steps of one kind follow each
 //! other, so that the processor works on several at once and no jump between kinds is mispredicted.
 
+use std::hint::select_unpredictable;
+
 use super::along::{Slabs, Stack};
 use super::node::{Child, WIDTH};
 use super::{Blocks, Isa, ShearedRay, Tree};
@@ -76,54 +78,53 @@ fn trace<I: Isa, B: Blocks, T: Copy, const ANY: bool>(
     begin: impl Fn(&T) -> Hit,
     finish: impl Fn(&mut T, &Hit),
 ) {
-    let stride = 1 + tree.stack_need + WIDTH;
+    let stride = tree.stack_need + WIDTH; // the unused lanes of a write do not reach the next one's part
     let ways = WAYS.min(rays.len());
     let of_blocks = ways * stride;
     let mut stack = Stack::new(of_blocks + tree.block_need);
     let mut slots: Vec<Slot> = Vec::with_capacity(ways);
-    let mut waiting = (0..rays.len()).filter(|&i| wanted(out[i])).collect::<Vec<_>>().into_iter();
-    let mut start = |slot: usize, out: &[T]| {
-        let number = waiting.next()?;
-        let ray = &rays[number];
-        let hit = if ANY { Hit { t: ray.t_max, ..Hit::MISS } } else { begin(&out[number]) };
-        Some(Slot::new(ray, number, hit, slot * stride))
+    let mut begun = 0;
+    let mut next = |out: &[T]| {
+        while begun < rays.len() && !wanted(out[begun]) {
+            begun += 1;
+        }
+        begun += 1;
+        begun - 1
     };
+    let hit_before = |ray: &Ray, out: &T| if ANY { Hit { t: ray.t_max, ..Hit::MISS } } else { begin(out) };
     // Slots by the kind of their next step; a slot without a ray is in neither.
     let (mut at_node, mut at_leaf) = ([0usize; WAYS], [0usize; WAYS]);
     let (mut nodes, mut leaves) = (0, 0);
-    while nodes < ways
-        && let Some(slot) = start(nodes, out)
-    {
-        slots.push(slot);
+    while nodes < ways {
+        let number = next(out);
+        let Some(ray) = rays.get(number) else { break };
+        slots.push(Slot::new(ray, number, hit_before(ray, &out[number]), nodes * stride));
         at_node[nodes] = nodes;
         nodes += 1;
     }
     while nodes + leaves > 0 {
         for i in 0..std::mem::take(&mut nodes) {
-            let number = at_node[i];
-            let slot = &mut slots[number];
+            let at = at_node[i];
+            let slot = &mut slots[at];
             let node = &tree.nodes[slot.child.index()];
-            slot.top = if ANY {
-                stack.push_met::<I, false, false>(isa, node, &slot.slabs, slot.limit, slot.top)
-            } else {
-                stack.push_met::<I, false, true>(isa, node, &slot.slabs, slot.limit, slot.top)
-            };
-            go_on(isa, tree, &stack, slot);
+            slot.child = stack.visit(isa, node, &slot.slabs, slot.limit, &mut slot.top);
+            ask_for(isa, tree, slot.child);
             // Both are written, one counts: no branch. There are never more than `WAYS` in the two together.
             let is_node = slot.child.is_node();
-            (at_node[nodes % WAYS], at_leaf[leaves % WAYS]) = (number, number);
+            (at_node[nodes % WAYS], at_leaf[leaves % WAYS]) = (at, at);
             nodes += usize::from(is_node);
             leaves += usize::from(!is_node);
         }
         for i in 0..std::mem::take(&mut leaves) {
-            let number = at_leaf[i];
-            let slot = &mut slots[number];
-            let base = number * stride;
+            let at = at_leaf[i];
+            let slot = &mut slots[at];
+            let base = at * stride;
             if slot.child == Child::NONE {
                 finish(&mut out[slot.number], &slot.hit);
-                let Some(next) = start(number, out) else { continue };
-                *slot = next;
-                at_node[nodes % WAYS] = number;
+                let number = next(out);
+                let Some(ray) = rays.get(number) else { continue };
+                *slot = Slot::new(ray, number, hit_before(ray, &out[number]), base);
+                at_node[nodes % WAYS] = at;
                 nodes += 1;
                 continue;
             }
@@ -138,24 +139,23 @@ fn trace<I: Isa, B: Blocks, T: Copy, const ANY: bool>(
                 block.closest(isa, ray, &slot.sheared, &mut stack, of_blocks, &mut slot.hit);
                 if slot.hit.t < before {
                     slot.limit = slot.slabs.limit(slot.hit.t);
-                    slot.top = stack.drop_beyond(slot.limit, base + 1, slot.top);
+                    stack.drop_beyond(slot.limit, base + 1, &mut slot.top);
                 }
             }
-            go_on(isa, tree, &stack, slot);
+            slot.child = stack.pop(&mut slot.top);
+            ask_for(isa, tree, slot.child);
             let is_node = slot.child.is_node();
-            (at_node[nodes % WAYS], at_leaf[leaves % WAYS]) = (number, number);
+            (at_node[nodes % WAYS], at_leaf[leaves % WAYS]) = (at, at);
             nodes += usize::from(is_node);
             leaves += usize::from(!is_node);
         }
     }
 }
 
-/// Takes the next step's place off the stack and asks for it.
+/// Asks for a node or leaf before it is needed.
 #[inline(always)]
-fn go_on<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, stack: &Stack, slot: &mut Slot) {
-    slot.top -= 1;
-    slot.child = stack.links[slot.top];
-    let index = slot.child.index();
+fn ask_for<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, child: Child) {
+    let index = child.index();
     let (node, block) = (tree.nodes.as_ptr().wrapping_add(index), tree.blocks.as_ptr().wrapping_add(index));
-    isa.prefetch(if slot.child.is_node() { node.cast::<u8>() } else { block.cast::<u8>() });
+    isa.prefetch(select_unpredictable(child.is_node(), node.cast::<u8>(), block.cast::<u8>()));
 }

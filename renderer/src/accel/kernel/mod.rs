@@ -57,22 +57,33 @@ pub trait Blocks {
 
 /// An instruction set: the two steps that are written for each.
 pub trait Isa: Copy {
-    /// Writes the children whose boxes the ray meets before `limit`, the nearest last if `SORTED`, with their keys (see
-    /// [`scalar::visit`]); returns how many. What lies beyond these in the arrays is arbitrary.
-    fn visit<const INSIDE: bool, const SORTED: bool>(
+    /// Which children's boxes the ray meets before `limit`: all but the nearest are written, with the distances at which
+    /// the ray enters them (see [`scalar::visit`]); what lies beyond these in the arrays is arbitrary.
+    fn visit<const INSIDE: bool>(
         self,
         node: &Node,
         slabs: &Slabs<INSIDE>,
         limit: f32,
-        keys: &mut [u32; WIDTH],
+        enters: &mut [f32; WIDTH],
         links: &mut [Child; WIDTH],
-    ) -> usize;
+    ) -> Met;
 
     /// Bit mask of the triangles that the ray is not outside of, and all edge functions (see [`scalar::inside`]).
     fn inside(self, corners: &Corners, sheared: &ShearedRay, edges: &mut [[f64; LANES]; 3]) -> u32;
 
     /// Asks for the two cache lines at `data`.
     fn prefetch<T>(self, data: *const T);
+}
+
+/// What a ray meets of a node.
+#[derive(Clone, Copy, Debug)]
+pub struct Met {
+    /// Whether it meets any child.
+    pub any: bool,
+    /// The nearest child; arbitrary if there is none.
+    pub nearest: Child,
+    /// Number of the others.
+    pub others: usize,
 }
 
 /// Up to four triangles with their corners in columns: `v[axis][corner]`. Corners of equal position are one.

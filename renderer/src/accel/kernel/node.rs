@@ -58,8 +58,8 @@ pub struct Node {
     pub planes: [[u8; WIDTH]; 6],
     /// Links.
     pub child: [Child; WIDTH],
-    /// Bit mask of the children that there are.
-    pub present: u32,
+    /// All ones where there is no child.
+    pub absent: [u8; WIDTH],
 }
 
 impl Node {
@@ -69,10 +69,11 @@ impl Node {
         step: [0.0; 4],
         planes: [[0; WIDTH]; 6],
         child: [Child::NONE; WIDTH],
-        present: 0,
+        absent: [0xff; WIDTH],
     };
 
-    /// Boxes (minimum, maximum) with their links, at most eight.
+    /// Boxes (minimum, maximum) with their links, at most eight. Each goes into the lane whose number says where it lies:
+    /// a bit for each axis, set on the upper side (Ylitalo et al. 2017, section 3.3).
     pub fn new(children: &[(Vec3, Vec3, Child)]) -> Self {
         let (low, high) = children
             .iter()
@@ -80,7 +81,7 @@ impl Node {
         let (low, high) = (low.as_dvec3(), high.as_dvec3());
         // In f64, where the difference of two f32 numbers can neither overflow nor vanish.
         let margin = (high - low) * MARGIN;
-        let mut node = Self { present: (1u32 << children.len()) - 1, ..Self::EMPTY };
+        let mut node = Self::EMPTY;
         let mut per_step = DVec3::ZERO;
         for axis in 0..3 {
             let origin = super::super::build::round_down(low[axis] - margin[axis]);
@@ -90,7 +91,7 @@ impl Node {
             per_step[axis] = if step > 0.0 { 1.0 / f64::from(step) } else { 0.0 };
         }
         let origin = Vec3::from_slice(&node.origin).as_dvec3();
-        for (lane, &(min, max, child)) in children.iter().enumerate() {
+        for (lane, &(min, max, child)) in lanes(children).into_iter().zip(children) {
             let first = (min.as_dvec3() - margin - origin) * per_step;
             let last = (max.as_dvec3() + margin - origin) * per_step;
             for axis in 0..3 {
@@ -99,7 +100,39 @@ impl Node {
                 node.planes[axis + 3][lane] = last[axis].ceil() as u8;
             }
             node.child[lane] = child;
+            node.absent[lane] = 0;
         }
         node
     }
+}
+
+/// A lane for each box. Of all that is left, the pair of box and lane goes first for which the box lies farthest
+/// towards the lane's corner: near the best assignment of all.
+fn lanes(children: &[(Vec3, Vec3, Child)]) -> [usize; WIDTH] {
+    let center = |c: &(Vec3, Vec3, Child)| 0.5 * c.0 + 0.5 * c.1;
+    let mean = children.iter().map(|c| center(c) / children.len() as f32).sum::<Vec3>();
+    let mut towards = [[f32::NEG_INFINITY; WIDTH]; WIDTH]; // by lane and box
+    for (number, child) in children.iter().enumerate() {
+        let p = center(child) - mean;
+        for (lane, towards) in towards.iter_mut().enumerate() {
+            let side = |axis: usize| if lane >> axis & 1 != 0 { p[axis] } else { -p[axis] };
+            towards[number] = side(0) + side(1) + side(2);
+        }
+    }
+    let (mut lanes, mut taken) = ([0; WIDTH], [false; WIDTH]);
+    let mut left: Vec<usize> = (0..children.len()).collect();
+    while !left.is_empty() {
+        let mut best = (f32::NEG_INFINITY, 0, 0);
+        for (at, &number) in left.iter().enumerate() {
+            for lane in (0..WIDTH).filter(|&lane| !taken[lane]) {
+                if best.0.is_infinite() || towards[lane][number] > best.0 {
+                    best = (towards[lane][number], at, lane);
+                }
+            }
+        }
+        let (_, at, lane) = best;
+        lanes[left.remove(at)] = lane;
+        taken[lane] = true;
+    }
+    lanes
 }

@@ -2,7 +2,7 @@
 
 use super::along::{Slabs, WIDEN};
 use super::node::{Child, Node, WIDTH};
-use super::{CORNERS, Corners, Isa, LANES, ShearedRay};
+use super::{CORNERS, Corners, Isa, LANES, Met, ShearedRay};
 
 /// Whatever the processor has.
 #[derive(Clone, Copy)]
@@ -10,15 +10,15 @@ pub struct Scalar;
 
 impl Isa for Scalar {
     #[inline(always)]
-    fn visit<const INSIDE: bool, const SORTED: bool>(
+    fn visit<const INSIDE: bool>(
         self,
         node: &Node,
         slabs: &Slabs<INSIDE>,
         limit: f32,
-        keys: &mut [u32; WIDTH],
+        enters: &mut [f32; WIDTH],
         links: &mut [Child; WIDTH],
-    ) -> usize {
-        visit::<INSIDE, SORTED>(node, slabs, limit, keys, links)
+    ) -> Met {
+        visit(node, slabs, limit, enters, links)
     }
 
     #[inline(always)]
@@ -36,16 +36,17 @@ impl Isa for Scalar {
 /// t = q · (step / d) + (origin − o) / d
 /// ```
 ///
-/// A child's key is the distance at which its box is entered, as bits, with the lane in place of the three lowest: keys are
-/// all different, and ordered as distances are.
+/// The nearest child is the one whose box is entered first, by the upper 16 bits of the distance; of equals the one in the
+/// lower lane. The others come, the nearest last, in the order of their lanes' numbers, of which those bits are
+/// flipped whose axes the ray goes down ([`Node::new`] puts children into lanes accordingly).
 #[inline(always)]
-pub fn visit<const INSIDE: bool, const SORTED: bool>(
+pub fn visit<const INSIDE: bool>(
     node: &Node,
     slabs: &Slabs<INSIDE>,
     limit: f32,
-    keys: &mut [u32; WIDTH],
+    enters: &mut [f32; WIDTH],
     links: &mut [Child; WIDTH],
-) -> usize {
+) -> Met {
     let (mut enter, mut leave) = ([0.0f32; WIDTH], [f32::MAX; WIDTH]);
     for axis in 0..3 {
         let (near, far) = (&node.planes[slabs.near[axis]], &node.planes[slabs.far[axis]]);
@@ -61,23 +62,24 @@ pub fn visit<const INSIDE: bool, const SORTED: bool>(
             leave[i] = if t1 < leave[i] { t1 } else { leave[i] };
         }
     }
-    let mut count = 0;
-    for i in 0..WIDTH {
-        let leave = leave[i] * WIDEN;
+    let mut met = 0;
+    for lane in 0..WIDTH {
+        let leave = leave[lane] * WIDEN;
         let leave = if leave < limit { leave } else { limit };
-        if enter[i] <= leave && node.present >> i & 1 != 0 {
-            let key = (enter[i].to_bits() & !7) | i as u32;
-            // Insertion keeps the nearest last: seldom more than three children are met.
-            let mut at = count;
-            while SORTED && at > 0 && keys[at - 1] < key {
-                (keys[at], links[at]) = (keys[at - 1], links[at - 1]);
-                at -= 1;
-            }
-            (keys[at], links[at]) = (key, node.child[i]);
-            count += 1;
+        met |= u32::from(enter[lane] <= leave && node.absent[lane] == 0) << lane;
+    }
+    let (any, mut others) = (met != 0, 0);
+    let nearest = (0..WIDTH)
+        .filter(|&lane| met >> lane & 1 != 0)
+        .min_by_key(|&lane| enter[lane].to_bits() >> 16)
+        .unwrap_or(0);
+    for lane in (0..WIDTH).rev().map(|rank| rank ^ slabs.octant) {
+        if met >> lane & 1 != 0 && lane != nearest {
+            (enters[others], links[others]) = (enter[lane], node.child[lane]);
+            others += 1;
         }
     }
-    count
+    Met { any, nearest: node.child[nearest], others }
 }
 
 /// Edge functions of four triangles in the ray's own space (Woop, Benthin and Wald 2013), and a bit mask of those

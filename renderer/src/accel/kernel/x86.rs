@@ -6,7 +6,7 @@ use std::arch::x86_64::*;
 
 use super::along::{Slabs, WIDEN};
 use super::node::{Child, Node, WIDTH};
-use super::{Blocks, Corners, Isa, LANES, Order, ShearedRay, Tree, closest_with, occluded_with};
+use super::{Blocks, Corners, Isa, LANES, Met, Order, ShearedRay, Tree, closest_with, occluded_with};
 use crate::accel::{Hit, Ray};
 
 /// What the processor has.
@@ -74,16 +74,16 @@ struct Avx2(());
 
 impl Isa for Avx2 {
     #[inline(always)]
-    fn visit<const INSIDE: bool, const SORTED: bool>(
+    fn visit<const INSIDE: bool>(
         self,
         node: &Node,
         slabs: &Slabs<INSIDE>,
         limit: f32,
-        keys: &mut [u32; WIDTH],
+        enters: &mut [f32; WIDTH],
         links: &mut [Child; WIDTH],
-    ) -> usize {
+    ) -> Met {
         // SAFETY: whoever has `self` runs on a processor with these features.
-        unsafe { visit::<INSIDE, SORTED>(node, slabs, limit, keys, links) }
+        unsafe { visit(node, slabs, limit, enters, links) }
     }
 
     #[inline(always)]
@@ -102,22 +102,24 @@ impl Isa for Avx2 {
     }
 }
 
-/// Of eight lanes, for each mask the numbers of those that are set, packed to the front.
-static PACKED: [[u8; WIDTH]; 256] = packed();
+/// For each octant and each mask of eight lanes the numbers of those that are set, packed, the first in order last.
+static PACKED: [[[u8; WIDTH]; 256]; 8] = packed();
 
-const fn packed() -> [[u8; WIDTH]; 256] {
-    let mut table = [[0; WIDTH]; 256];
-    let mut mask = 0;
-    while mask < 256 {
-        let (mut lane, mut at) = (0, 0);
-        while lane < WIDTH {
+const fn packed() -> [[[u8; WIDTH]; 256]; 8] {
+    let mut table = [[[0; WIDTH]; 256]; 8];
+    let mut entry = 0;
+    while entry < 8 * 256 {
+        let (octant, mask) = (entry / 256, entry % 256);
+        let (mut rank, mut at) = (WIDTH, 0);
+        while rank > 0 {
+            rank -= 1;
+            let lane = rank ^ octant;
             if mask >> lane & 1 != 0 {
-                table[mask][at] = lane as u8;
+                table[octant][mask][at] = lane as u8;
                 at += 1;
             }
-            lane += 1;
         }
-        mask += 1;
+        entry += 1;
     }
     table
 }
@@ -132,13 +134,13 @@ fn lanes(bytes: &[u8; 8]) -> __m256i {
 /// See [`super::scalar::visit`].
 #[inline]
 #[target_feature(enable = "avx2,bmi1,popcnt")]
-fn visit<const INSIDE: bool, const SORTED: bool>(
+fn visit<const INSIDE: bool>(
     node: &Node,
     slabs: &Slabs<INSIDE>,
     limit: f32,
-    keys: &mut [u32; WIDTH],
+    enters: &mut [f32; WIDTH],
     links: &mut [Child; WIDTH],
-) -> usize {
+) -> Met {
     // SAFETY: each load is from an array of its size.
     let (origin, step, o, o_far, inverse) = unsafe {
         (
@@ -170,65 +172,23 @@ fn visit<const INSIDE: bool, const SORTED: bool>(
     axis!(1);
     axis!(2);
     let leave = _mm256_min_ps(_mm256_mul_ps(leave, _mm256_set1_ps(WIDEN)), _mm256_set1_ps(limit));
-    let met = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave)) as u32 & node.present;
-    let count = met.count_ones() as usize;
-    let packed = lanes(&PACKED[met as usize & 255]);
-    // SAFETY: `Child` is a `u32`.
-    let child = unsafe { _mm256_loadu_si256(node.child.as_ptr().cast()) };
-    if !SORTED {
-        // SAFETY: eight lanes into an array of eight.
-        unsafe { _mm256_storeu_si256(links.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(child, packed)) };
-        return count;
-    }
-    let lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    let key = _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(enter)), lane);
-    let key = _mm256_permutevar8x32_epi32(key, packed);
-    // Lanes beyond the count become −1, less than any key.
-    let beyond = _mm256_cmpgt_epi32(_mm256_set1_epi32(count as i32), lane);
-    let key = _mm256_or_si256(key, _mm256_xor_si256(beyond, _mm256_set1_epi32(-1)));
-    let key = if count <= 4 { sort4(_mm256_castsi256_si128(key)) } else { sort8(key) };
-    // SAFETY: as above.
+    // All ones where a child is missed or absent.
+    let absent = _mm256_cvtepi8_epi32(_mm_cvtsi64_si128(i64::from_le_bytes(node.absent)));
+    let missed = _mm256_or_ps(_mm256_cmp_ps::<_CMP_NLE_UQ>(enter, leave), _mm256_castsi256_ps(absent));
+    let met = !_mm256_movemask_ps(missed) as u32 & 0xff;
+    // The nearest is not fetched from the stack once it is there: that way is longer.
+    let near = _mm256_srli_epi32::<16>(_mm256_castps_si256(_mm256_or_ps(enter, missed)));
+    let near = _mm_packus_epi32(_mm256_castsi256_si128(near), _mm256_extracti128_si256::<1>(near));
+    let nearest = _mm_cvtsi128_si32(_mm_minpos_epu16(near)) as usize >> 16 & 7;
+    let others = met & !(1 << nearest);
+    let packed = lanes(&PACKED[slabs.octant % 8][others as usize % 256]);
+    // SAFETY: loads and stores of eight lanes, of arrays of eight; a `Child` is a `u32`.
     unsafe {
-        _mm256_storeu_si256(keys.as_mut_ptr().cast(), key);
-        _mm256_storeu_si256(links.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(child, key));
+        _mm256_storeu_ps(enters.as_mut_ptr(), _mm256_permutevar8x32_ps(enter, packed));
+        let child = _mm256_loadu_si256(node.child.as_ptr().cast());
+        _mm256_storeu_si256(links.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(child, packed));
     }
-    count
-}
-
-/// Sorts downwards by a network of five comparisons; the upper four lanes are arbitrary.
-#[inline]
-#[target_feature(enable = "avx2")]
-fn sort4(k: __m128i) -> __m256i {
-    macro_rules! step {
-        ($k:expr, $partner:literal, $less:literal) => {{
-            let k = $k;
-            let partner = _mm_shuffle_epi32::<$partner>(k);
-            _mm_blend_epi32::<$less>(_mm_max_epi32(k, partner), _mm_min_epi32(k, partner))
-        }};
-    }
-    let k = step!(k, 0b10_11_00_01, 0b1010);
-    let k = step!(k, 0b01_00_11_10, 0b1100);
-    _mm256_castsi128_si256(step!(k, 0b11_01_10_00, 0b0100))
-}
-
-/// Sorts downwards by Batcher's odd-even merge network.
-#[inline(never)]
-#[target_feature(enable = "avx2")]
-fn sort8(k: __m256i) -> __m256i {
-    macro_rules! step {
-        ($k:expr, $partner:expr, $less:literal) => {{
-            let k = $k;
-            let [a, b, c, d, e, f, g, h] = $partner;
-            let partner = _mm256_permutevar8x32_epi32(k, _mm256_setr_epi32(a, b, c, d, e, f, g, h));
-            _mm256_blend_epi32::<$less>(_mm256_max_epi32(k, partner), _mm256_min_epi32(k, partner))
-        }};
-    }
-    let k = step!(k, [1, 0, 3, 2, 5, 4, 7, 6], 0b1010_1010);
-    let k = step!(k, [2, 3, 0, 1, 6, 7, 4, 5], 0b1100_1100);
-    let k = step!(k, [0, 2, 1, 3, 4, 6, 5, 7], 0b0100_0100);
-    let k = step!(k, [4, 5, 6, 7, 0, 1, 2, 3], 0b1111_0000);
-    let k = step!(k, [0, 1, 4, 5, 2, 3, 6, 7], 0b0011_0000);
-    step!(k, [0, 2, 1, 4, 3, 6, 5, 7], 0b0101_0100)
+    Met { any: met != 0, nearest: node.child[nearest], others: others.count_ones() as usize }
 }
 
 /// See [`super::scalar::inside`].
