@@ -19,7 +19,7 @@ pub use analytic::{Analytic, AnalyticKind};
 pub use build::Bounds;
 use instance::Placed;
 pub use instance::{Instance, image};
-use kernel::Order::{Interleaved, OneByOne};
+use kernel::Query::{Closest, Occluded};
 use kernel::Tree;
 use triangle::TriangleBlock;
 
@@ -169,12 +169,12 @@ impl Accel {
         for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
             *hit = Hit { t: ray.t_max, ..Hit::MISS };
         }
-        kernel::closest(Interleaved, &self.top.triangles, rays, hits);
+        kernel::interleaved(&self.top.triangles, rays, Closest(hits));
         if !self.top.analytics.is_empty() {
-            kernel::closest(OneByOne, &self.top.analytics, rays, hits);
+            kernel::one_by_one(&self.top.analytics, rays, Closest(hits));
         }
         if !self.instances.is_empty() {
-            kernel::closest(OneByOne, &self.instances, rays, hits);
+            kernel::one_by_one(&self.instances, rays, Closest(hits));
         }
         for hit in hits {
             if hit.prim == NONE {
@@ -186,12 +186,12 @@ impl Accel {
     /// Whether anything lies on each ray before its `t_max`. Both slices have the same length.
     pub fn occluded(&self, rays: &[Ray], blocked: &mut [bool]) {
         blocked.fill(false);
-        kernel::occluded(Interleaved, &self.top.triangles, rays, blocked);
+        kernel::interleaved(&self.top.triangles, rays, Occluded(blocked));
         if !self.top.analytics.is_empty() {
-            kernel::occluded(OneByOne, &self.top.analytics, rays, blocked);
+            kernel::one_by_one(&self.top.analytics, rays, Occluded(blocked));
         }
         if !self.instances.is_empty() {
-            kernel::occluded(OneByOne, &self.instances, rays, blocked);
+            kernel::one_by_one(&self.instances, rays, Occluded(blocked));
         }
     }
 
@@ -201,7 +201,7 @@ impl Accel {
         for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
             *hit = Hit { t: ray.t_max, ..Hit::MISS };
         }
-        kernel::scalar_closest(&self.top.triangles, rays, hits);
+        kernel::reference(&self.top.triangles, rays, Closest(hits));
         hits.iter_mut().filter(|hit| hit.prim == NONE).for_each(|hit| *hit = Hit::MISS);
     }
 
@@ -209,7 +209,7 @@ impl Accel {
     #[cfg(any(test, feature = "bench"))]
     pub fn occluded_scalar(&self, rays: &[Ray], blocked: &mut [bool]) {
         blocked.fill(false);
-        kernel::scalar_occluded(&self.top.triangles, rays, blocked);
+        kernel::reference(&self.top.triangles, rays, Occluded(blocked));
     }
 
     /// Size of the tree over the triangles with its leaves.

@@ -98,6 +98,59 @@ impl TriangleBlock {
     }
 }
 
+impl TriangleBlock {
+    /// Bit mask of the triangles that the ray is not outside of, and all edge functions.
+    #[inline(always)]
+    pub fn candidates<I: Isa>(&self, isa: I, sheared: &ShearedRay, edges: &mut [[f64; LANES]; 3]) -> u32 {
+        isa.inside(&self.corners, sheared, edges) & self.present
+    }
+
+    /// Replaces `hit` by a nearer one of the candidates.
+    #[inline(always)]
+    pub fn nearest(
+        &self,
+        mut candidates: u32,
+        edges: &[[f64; LANES]; 3],
+        ray: &Ray,
+        sheared: &ShearedRay,
+        hit: &mut Hit,
+    ) {
+        while candidates != 0 {
+            let lane = candidates.trailing_zeros() as usize % LANES;
+            candidates &= candidates - 1;
+            let prim = self.prim[lane];
+            if let Some((t, u, v)) = self.hit(sheared, edges, lane)
+                && prim != ray.skip
+                && hit.beaten_by(t, prim)
+                && t < ray.t_max
+            {
+                *hit = Hit { t, prim, u, v, instance: NONE };
+            }
+        }
+    }
+
+    /// Whether one of the candidates lies before `ray.t_max`.
+    #[inline(always)]
+    pub fn any(
+        &self,
+        mut candidates: u32,
+        edges: &[[f64; LANES]; 3],
+        ray: &Ray,
+        sheared: &ShearedRay,
+    ) -> bool {
+        while candidates != 0 {
+            let lane = candidates.trailing_zeros() as usize % LANES;
+            candidates &= candidates - 1;
+            if self.prim[lane] != ray.skip
+                && self.hit(sheared, edges, lane).is_some_and(|(t, ..)| t < ray.t_max)
+            {
+                return true;
+            }
+        }
+        false
+    }
+}
+
 impl Blocks for TriangleBlock {
     const MOST: usize = LANES;
 
@@ -112,34 +165,14 @@ impl Blocks for TriangleBlock {
         hit: &mut Hit,
     ) {
         let mut edges = [[0.0; LANES]; 3];
-        let mut mask = isa.inside(&self.corners, sheared, &mut edges) & self.present;
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            let prim = self.prim[lane];
-            if let Some((t, u, v)) = self.hit(sheared, &edges, lane)
-                && prim != ray.skip
-                && hit.beaten_by(t, prim)
-                && t < ray.t_max
-            {
-                *hit = Hit { t, prim, u, v, instance: NONE };
-            }
-        }
+        let candidates = self.candidates(isa, sheared, &mut edges);
+        self.nearest(candidates, &edges, ray, sheared, hit);
     }
 
     #[inline(always)]
     fn occluded<I: Isa>(&self, isa: I, ray: &Ray, sheared: &ShearedRay, _: &mut Stack, _: usize) -> bool {
         let mut edges = [[0.0; LANES]; 3];
-        let mut mask = isa.inside(&self.corners, sheared, &mut edges) & self.present;
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            if self.prim[lane] != ray.skip
-                && self.hit(sheared, &edges, lane).is_some_and(|(t, ..)| t < ray.t_max)
-            {
-                return true;
-            }
-        }
-        false
+        let candidates = self.candidates(isa, sheared, &mut edges);
+        self.any(candidates, &edges, ray, sheared)
     }
 }

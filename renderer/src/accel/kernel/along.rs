@@ -1,9 +1,11 @@
 //! One ray's way through a tree.
 
+#![allow(unsafe_code)]
+
 use std::hint::select_unpredictable;
 
 use super::node::{Child, Node, WIDTH};
-use super::{Blocks, Isa, ShearedRay, Tree};
+use super::{Blocks, Isa, Query, ShearedRay, Tree};
 use crate::accel::{Hit, Ray};
 
 /// Slab distances carry a few roundings each; widening the far side keeps the box test conservative (Ize 2013).
@@ -77,12 +79,14 @@ impl<const INSIDE: bool> Slabs<INSIDE> {
 pub struct Stack {
     enters: Vec<f32>,
     links: Vec<Child>,
+    /// How many there may be; the vectors are longer by `WIDTH`.
+    entries: usize,
 }
 
 impl Stack {
     /// With room for `entries`, and for the unused lanes of the last write. All are [`Child::NONE`].
     pub fn new(entries: usize) -> Self {
-        Self { enters: vec![0.0; entries + WIDTH], links: vec![Child::NONE; entries + WIDTH] }
+        Self { enters: vec![0.0; entries + WIDTH], links: vec![Child::NONE; entries + WIDTH], entries }
     }
 
     /// Visits a node: of the children that the ray meets the nearest is returned, and the others are put on top; where there
@@ -96,10 +100,14 @@ impl Stack {
         limit: f32,
         top: &mut usize,
     ) -> Child {
-        let last = self.links[*top - 1];
-        let enters =
-            self.enters[*top..].first_chunk_mut().expect("there is room for all lanes above the top");
-        let links = self.links[*top..].first_chunk_mut().expect("there is room for all lanes above the top");
+        let at = top.wrapping_sub(1);
+        assert!(at < self.entries, "a stack has room for what its tree needs");
+        // SAFETY: `at` is within both, and there are `WIDTH` more above.
+        let (last, enters, links) = unsafe {
+            let enters = &mut *self.enters.as_mut_ptr().add(at + 1).cast::<[f32; WIDTH]>();
+            let links = self.links.as_mut_ptr().add(at);
+            (*links, enters, &mut *links.add(1).cast::<[Child; WIDTH]>())
+        };
         let met = isa.visit(node, slabs, limit, enters, links);
         *top = *top + met.others - usize::from(!met.any);
         select_unpredictable(met.any, met.nearest, last)
@@ -128,10 +136,23 @@ impl Stack {
 
 /// The rays one by one.
 #[inline(always)]
-pub fn closest<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
+pub fn trace<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, rays: &[Ray], query: Query) {
+    if tree.is_empty() {
+        return;
+    }
     let mut stack = Stack::new(tree.stack_need + tree.block_need);
-    for (ray, hit) in rays.iter().zip(hits) {
-        closest_along(isa, tree, ray, &Slabs::new(ray), &ShearedRay::new(ray), &mut stack, 0, hit);
+    match query {
+        Query::Closest(hits) => {
+            for (ray, hit) in rays.iter().zip(hits) {
+                closest_along(isa, tree, ray, &Slabs::new(ray), &ShearedRay::new(ray), &mut stack, 0, hit);
+            }
+        }
+        Query::Occluded(blocked) => {
+            for (ray, blocked) in rays.iter().zip(blocked).filter(|(_, blocked)| !**blocked) {
+                *blocked =
+                    occluded_along(isa, tree, ray, &Slabs::new(ray), &ShearedRay::new(ray), &mut stack, 0);
+            }
+        }
     }
 }
 
@@ -165,17 +186,6 @@ pub fn closest_along<I: Isa, B: Blocks, const INSIDE: bool>(
             stack.drop_beyond(limit, base + 1, &mut top);
         }
         child = stack.pop(&mut top);
-    }
-}
-
-/// The rays one by one.
-#[inline(always)]
-pub fn occluded<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
-    let mut stack = Stack::new(tree.stack_need + tree.block_need);
-    for (ray, blocked) in rays.iter().zip(blocked) {
-        if !*blocked {
-            *blocked = occluded_along(isa, tree, ray, &Slabs::new(ray), &ShearedRay::new(ray), &mut stack, 0);
-        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Many rays at a time through one tree.
+//! Many rays at a time through one tree of triangles.
 //!
 //! A ray alone waits for memory at each node: it cannot know which node comes next before it has tested this one.
 //! Here `WAYS` independent rays take turns. Each does one step, a node or a leaf, learns which comes next, asks for it, and
@@ -9,7 +9,8 @@ use std::hint::select_unpredictable;
 
 use super::along::{Slabs, Stack};
 use super::node::{Child, WIDTH};
-use super::{Blocks, Isa, ShearedRay, Tree};
+use super::{Isa, LANES, Query, ShearedRay, Tree};
+use crate::accel::triangle::TriangleBlock;
 use crate::accel::{Hit, NONE, Ray};
 
 /// Rays under way at a time.
@@ -22,12 +23,16 @@ struct Slot {
     limit: f32,
     /// Where it goes next; [`Child::NONE`] at its end.
     child: Child,
-    /// First free entry of its part of the stack; the first one of all holds [`Child::NONE`].
+    /// First free entry of its part of the stack, the lowest of which holds [`Child::NONE`].
     top: usize,
     /// Its index.
     number: usize,
     hit: Hit,
     sheared: ShearedRay,
+    /// What the last leaf's test found: see [`TriangleBlock::candidates`].
+    candidates: u32,
+    edges: [[f64; LANES]; 3],
+    block: u32,
 }
 
 impl Slot {
@@ -42,46 +47,67 @@ impl Slot {
             number,
             hit,
             sheared: ShearedRay::new(ray),
+            candidates: 0,
+            edges: [[0.0; LANES]; 3],
+            block: 0,
         }
     }
 }
 
-/// See [`super::closest`]; the tree is not empty.
-#[inline(always)]
-pub fn closest<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
-    trace::<I, B, Hit, false>(isa, tree, rays, hits, |_| true, |hit| *hit, |out, hit| *out = *hit)
+/// Numbers of slots whose next step is of one kind. There are never more than `WAYS` in all of them together.
+#[derive(Default)]
+struct Queue {
+    slots: [u32; WAYS],
+    count: usize,
 }
 
-/// See [`super::occluded`]; the tree is not empty.
-#[inline(always)]
-pub fn occluded<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
-    trace::<I, B, bool, true>(
-        isa,
-        tree,
-        rays,
-        blocked,
-        |blocked| !blocked,
-        |_| Hit::MISS,
-        |out, hit| *out = hit.prim != NONE,
-    )
+impl Queue {
+    /// Writes in any case and counts if `really`: no jump.
+    #[inline(always)]
+    fn push_if(&mut self, really: bool, slot: usize) {
+        self.slots[self.count % WAYS] = slot as u32;
+        self.count += usize::from(really);
+    }
+
+    /// Empties it; what it held is still there to be read, as long as no more is written than was read.
+    #[inline(always)]
+    fn take(&mut self) -> usize {
+        std::mem::take(&mut self.count)
+    }
 }
 
-/// Traces the rays whose output is `wanted`, from the hit that `begin` makes of it, and puts the end into it by `finish`.
+/// Many rays at a time.
+#[inline(always)]
+pub fn trace<I: Isa>(isa: I, tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
+    if tree.is_empty() {
+        return;
+    }
+    match query {
+        Query::Closest(hits) => {
+            run::<I, Hit, false>(isa, tree, rays, hits, |_| true, |_, hit| *hit, |hit| *hit);
+        }
+        Query::Occluded(blocked) => {
+            let before = |ray: &Ray, _: &bool| Hit { t: ray.t_max, ..Hit::MISS };
+            run::<I, bool, true>(isa, tree, rays, blocked, |blocked| !blocked, before, |h| h.prim != NONE);
+        }
+    }
+}
+
+/// Traces the rays whose output is `wanted`, from the hit `before` on, and puts `end` of the hit into the output.
 /// With `ANY` a ray ends at its first hit, whatever it is.
 #[inline(always)]
-fn trace<I: Isa, B: Blocks, T: Copy, const ANY: bool>(
+fn run<I: Isa, T: Copy, const ANY: bool>(
     isa: I,
-    tree: &Tree<B>,
+    tree: &Tree<TriangleBlock>,
     rays: &[Ray],
     out: &mut [T],
     wanted: impl Fn(T) -> bool,
-    begin: impl Fn(&T) -> Hit,
-    finish: impl Fn(&mut T, &Hit),
+    before: impl Fn(&Ray, &T) -> Hit,
+    end: impl Fn(&Hit) -> T,
 ) {
     let stride = tree.stack_need + WIDTH; // the unused lanes of a write do not reach the next one's part
     let ways = WAYS.min(rays.len());
-    let of_blocks = ways * stride;
-    let mut stack = Stack::new(of_blocks + tree.block_need);
+    let mut stack = Stack::new(ways * stride);
     let mut slots: Vec<Slot> = Vec::with_capacity(ways);
     let mut begun = 0;
     let mut next = |out: &[T]| {
@@ -91,70 +117,74 @@ fn trace<I: Isa, B: Blocks, T: Copy, const ANY: bool>(
         begun += 1;
         begun - 1
     };
-    let hit_before = |ray: &Ray, out: &T| if ANY { Hit { t: ray.t_max, ..Hit::MISS } } else { begin(out) };
-    // Slots by the kind of their next step; a slot without a ray is in neither.
-    let (mut at_node, mut at_leaf) = ([0usize; WAYS], [0usize; WAYS]);
-    let (mut nodes, mut leaves) = (0, 0);
-    while nodes < ways {
+    let (mut at_node, mut at_leaf, mut at_hit) = (Queue::default(), Queue::default(), Queue::default());
+    while slots.len() < ways {
         let number = next(out);
         let Some(ray) = rays.get(number) else { break };
-        slots.push(Slot::new(ray, number, hit_before(ray, &out[number]), nodes * stride));
-        at_node[nodes] = nodes;
-        nodes += 1;
+        let slot = slots.len();
+        slots.push(Slot::new(ray, number, before(ray, &out[number]), slot * stride));
+        at_node.push_if(true, slot);
     }
-    while nodes + leaves > 0 {
-        for i in 0..std::mem::take(&mut nodes) {
-            let at = at_node[i];
-            let slot = &mut slots[at];
+    while at_node.count + at_leaf.count > 0 {
+        for i in 0..at_node.take() {
+            let number = at_node.slots[i] as usize;
+            let slot = &mut slots[number];
             let node = &tree.nodes[slot.child.index()];
             slot.child = stack.visit(isa, node, &slot.slabs, slot.limit, &mut slot.top);
             ask_for(isa, tree, slot.child);
-            // Both are written, one counts: no branch. There are never more than `WAYS` in the two together.
-            let is_node = slot.child.is_node();
-            (at_node[nodes % WAYS], at_leaf[leaves % WAYS]) = (at, at);
-            nodes += usize::from(is_node);
-            leaves += usize::from(!is_node);
+            at_node.push_if(slot.child.is_node(), number);
+            at_leaf.push_if(!slot.child.is_node(), number);
         }
-        for i in 0..std::mem::take(&mut leaves) {
-            let at = at_leaf[i];
-            let slot = &mut slots[at];
-            let base = at * stride;
+        for i in 0..at_leaf.take() {
+            let number = at_leaf.slots[i] as usize;
+            let slot = &mut slots[number];
             if slot.child == Child::NONE {
-                finish(&mut out[slot.number], &slot.hit);
-                let number = next(out);
-                let Some(ray) = rays.get(number) else { continue };
-                *slot = Slot::new(ray, number, hit_before(ray, &out[number]), base);
-                at_node[nodes % WAYS] = at;
-                nodes += 1;
+                out[slot.number] = end(&slot.hit);
+                let index = next(out);
+                if let Some(ray) = rays.get(index) {
+                    *slot = Slot::new(ray, index, before(ray, &out[index]), number * stride);
+                    at_node.push_if(true, number);
+                }
                 continue;
             }
+            slot.block = slot.child.index() as u32;
             let block = &tree.blocks[slot.child.index()];
-            let ray = &rays[slot.number];
-            if ANY {
-                if block.occluded(isa, ray, &slot.sheared, &mut stack, of_blocks) {
-                    (slot.hit.prim, slot.top) = (0, base + 1);
-                }
-            } else {
-                let before = slot.hit.t;
-                block.closest(isa, ray, &slot.sheared, &mut stack, of_blocks, &mut slot.hit);
-                if slot.hit.t < before {
-                    slot.limit = slot.slabs.limit(slot.hit.t);
-                    stack.drop_beyond(slot.limit, base + 1, &mut slot.top);
-                }
-            }
+            slot.candidates = block.candidates(isa, &slot.sheared, &mut slot.edges);
             slot.child = stack.pop(&mut slot.top);
             ask_for(isa, tree, slot.child);
-            let is_node = slot.child.is_node();
-            (at_node[nodes % WAYS], at_leaf[leaves % WAYS]) = (at, at);
-            nodes += usize::from(is_node);
-            leaves += usize::from(!is_node);
+            let any = slot.candidates != 0;
+            at_hit.push_if(any, number);
+            at_node.push_if(!any & slot.child.is_node(), number);
+            at_leaf.push_if(!any & !slot.child.is_node(), number);
+        }
+        for i in 0..at_hit.take() {
+            let number = at_hit.slots[i] as usize;
+            let slot = &mut slots[number];
+            let (block, ray) = (&tree.blocks[slot.block as usize], &rays[slot.number]);
+            if ANY {
+                if block.any(slot.candidates, &slot.edges, ray, &slot.sheared) {
+                    (slot.hit.prim, slot.child) = (0, Child::NONE);
+                }
+            } else {
+                let t = slot.hit.t;
+                block.nearest(slot.candidates, &slot.edges, ray, &slot.sheared, &mut slot.hit);
+                if slot.hit.t < t {
+                    slot.limit = slot.slabs.limit(slot.hit.t);
+                    slot.top += 1; // what was taken off may be too far away, too
+                    stack.drop_beyond(slot.limit, number * stride + 1, &mut slot.top);
+                    slot.child = stack.pop(&mut slot.top);
+                    ask_for(isa, tree, slot.child);
+                }
+            }
+            at_node.push_if(slot.child.is_node(), number);
+            at_leaf.push_if(!slot.child.is_node(), number);
         }
     }
 }
 
 /// Asks for a node or leaf before it is needed.
 #[inline(always)]
-fn ask_for<I: Isa, B: Blocks>(isa: I, tree: &Tree<B>, child: Child) {
+fn ask_for<I: Isa>(isa: I, tree: &Tree<TriangleBlock>, child: Child) {
     let index = child.index();
     let (node, block) = (tree.nodes.as_ptr().wrapping_add(index), tree.blocks.as_ptr().wrapping_add(index));
     isa.prefetch(select_unpredictable(child.is_node(), node.cast::<u8>(), block.cast::<u8>()));

@@ -18,7 +18,10 @@ use glam::DVec3;
 
 pub use along::{Slabs, Stack, closest_along, occluded_along};
 pub use node::{Child, Node, WIDTH};
+#[cfg(test)]
+pub use scalar::Scalar;
 
+use super::triangle::TriangleBlock;
 use super::{Hit, Ray};
 
 /// Triangles of a leaf.
@@ -171,69 +174,35 @@ impl ShearedRay {
     }
 }
 
-/// How rays go through a tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Order {
-    /// Each to its end. Best where leaves are costly.
-    OneByOne,
-    /// Many at a time, so that memory is waited for once for all of them.
-    Interleaved,
+/// What is done along rays: the nearest hit that beats the one in the array, or whether anything lies before `t_max`, where
+/// that is not known yet.
+pub enum Query<'a> {
+    /// Nearest hits.
+    Closest(&'a mut [Hit]),
+    /// What is set stays set.
+    Occluded(&'a mut [bool]),
 }
 
-/// The nearest hit of each ray that beats the one in `hits`.
-pub fn closest<B: Blocks>(order: Order, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
+/// Traces rays one by one: where leaves are costly.
+pub fn one_by_one<B: Blocks>(tree: &Tree<B>, rays: &[Ray], query: Query) {
     #[cfg(target_arch = "x86_64")]
     if let Some(level) = x86::Level::detected() {
-        return x86::closest(level, order, tree, rays, hits);
+        return x86::one_by_one(level, tree, rays, query);
     }
-    closest_with(scalar::Scalar, order, tree, rays, hits)
+    along::trace(scalar::Scalar, tree, rays, query)
 }
 
-/// Sets `blocked` where anything lies before a ray's `t_max`; what is set stays set.
-pub fn occluded<B: Blocks>(order: Order, tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
+/// Traces many rays at a time, so that memory is waited for once for all of them.
+pub fn interleaved(tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
     #[cfg(target_arch = "x86_64")]
     if let Some(level) = x86::Level::detected() {
-        return x86::occluded(level, order, tree, rays, blocked);
+        return x86::interleaved(level, tree, rays, query);
     }
-    occluded_with(scalar::Scalar, order, tree, rays, blocked)
+    batch::trace(scalar::Scalar, tree, rays, query)
 }
 
-#[inline(always)]
-fn closest_with<I: Isa, B: Blocks>(isa: I, order: Order, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
-    if tree.is_empty() {
-        return;
-    }
-    match order {
-        Order::OneByOne => along::closest(isa, tree, rays, hits),
-        Order::Interleaved => batch::closest(isa, tree, rays, hits),
-    }
-}
-
-#[inline(always)]
-fn occluded_with<I: Isa, B: Blocks>(
-    isa: I,
-    order: Order,
-    tree: &Tree<B>,
-    rays: &[Ray],
-    blocked: &mut [bool],
-) {
-    if tree.is_empty() {
-        return;
-    }
-    match order {
-        Order::OneByOne => along::occluded(isa, tree, rays, blocked),
-        Order::Interleaved => batch::occluded(isa, tree, rays, blocked),
-    }
-}
-
-/// The reference, whatever the processor has: scalar and a ray at a time.
+/// The reference: scalar whatever the processor has, and a ray at a time.
 #[cfg(any(test, feature = "bench"))]
-pub fn scalar_closest<B: Blocks>(tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
-    closest_with(scalar::Scalar, Order::OneByOne, tree, rays, hits)
-}
-
-/// The reference, whatever the processor has: scalar and a ray at a time.
-#[cfg(any(test, feature = "bench"))]
-pub fn scalar_occluded<B: Blocks>(tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
-    occluded_with(scalar::Scalar, Order::OneByOne, tree, rays, blocked)
+pub fn reference<B: Blocks>(tree: &Tree<B>, rays: &[Ray], query: Query) {
+    along::trace(scalar::Scalar, tree, rays, query)
 }

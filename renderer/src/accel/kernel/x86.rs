@@ -6,8 +6,9 @@ use std::arch::x86_64::*;
 
 use super::along::{Slabs, WIDEN};
 use super::node::{Child, Node, WIDTH};
-use super::{Blocks, Corners, Isa, LANES, Met, Order, ShearedRay, Tree, closest_with, occluded_with};
-use crate::accel::{Hit, Ray};
+use super::{Blocks, Corners, Isa, LANES, Met, Query, ShearedRay, Tree, along, batch};
+use crate::accel::Ray;
+use crate::accel::triangle::TriangleBlock;
 
 /// What the processor has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,42 +31,38 @@ impl Level {
     }
 }
 
-/// See [`super::closest`].
-pub fn closest<B: Blocks>(level: Level, order: Order, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
+/// See [`super::one_by_one`].
+pub fn one_by_one<B: Blocks>(level: Level, tree: &Tree<B>, rays: &[Ray], query: Query) {
+    #[target_feature(enable = "avx2,bmi1,popcnt")]
+    fn avx2<B: Blocks>(tree: &Tree<B>, rays: &[Ray], query: Query) {
+        along::trace(Avx2(()), tree, rays, query)
+    }
+    #[target_feature(enable = "avx2,bmi1,popcnt,avx512f,avx512vl")]
+    fn avx512<B: Blocks>(tree: &Tree<B>, rays: &[Ray], query: Query) {
+        along::trace(Avx2(()), tree, rays, query)
+    }
     // SAFETY: `level` was detected on this processor.
     match level {
-        Level::Avx2 => unsafe { closest_avx2(order, tree, rays, hits) },
-        Level::Avx512 => unsafe { closest_avx512(order, tree, rays, hits) },
+        Level::Avx2 => unsafe { avx2(tree, rays, query) },
+        Level::Avx512 => unsafe { avx512(tree, rays, query) },
     }
 }
 
-/// See [`super::occluded`].
-pub fn occluded<B: Blocks>(level: Level, order: Order, tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
+/// See [`super::interleaved`].
+pub fn interleaved(level: Level, tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
+    #[target_feature(enable = "avx2,bmi1,popcnt")]
+    fn avx2(tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
+        batch::trace(Avx2(()), tree, rays, query)
+    }
+    #[target_feature(enable = "avx2,bmi1,popcnt,avx512f,avx512vl")]
+    fn avx512(tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
+        batch::trace(Avx2(()), tree, rays, query)
+    }
     // SAFETY: `level` was detected on this processor.
     match level {
-        Level::Avx2 => unsafe { occluded_avx2(order, tree, rays, blocked) },
-        Level::Avx512 => unsafe { occluded_avx512(order, tree, rays, blocked) },
+        Level::Avx2 => unsafe { avx2(tree, rays, query) },
+        Level::Avx512 => unsafe { avx512(tree, rays, query) },
     }
-}
-
-#[target_feature(enable = "avx2,bmi1,popcnt")]
-fn closest_avx2<B: Blocks>(order: Order, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
-    closest_with(Avx2(()), order, tree, rays, hits)
-}
-
-#[target_feature(enable = "avx2,bmi1,popcnt,avx512f,avx512vl")]
-fn closest_avx512<B: Blocks>(order: Order, tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
-    closest_with(Avx2(()), order, tree, rays, hits)
-}
-
-#[target_feature(enable = "avx2,bmi1,popcnt")]
-fn occluded_avx2<B: Blocks>(order: Order, tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
-    occluded_with(Avx2(()), order, tree, rays, blocked)
-}
-
-#[target_feature(enable = "avx2,bmi1,popcnt,avx512f,avx512vl")]
-fn occluded_avx512<B: Blocks>(order: Order, tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
-    occluded_with(Avx2(()), order, tree, rays, blocked)
 }
 
 /// A processor with AVX2: made in the functions above alone.
@@ -158,8 +155,11 @@ fn visit<const INSIDE: bool>(
     macro_rules! axis {
         ($axis:literal) => {
             let all = |v: __m128| _mm256_broadcastss_ps(_mm_permute_ps::<{ $axis * 0x55 }>(v));
-            let near = _mm256_cvtepi32_ps(lanes(&node.planes[slabs.near[$axis]]));
-            let far = _mm256_cvtepi32_ps(lanes(&node.planes[slabs.far[$axis]]));
+            // SAFETY: there are planes of these numbers, since `Slabs::padded` alone sets them.
+            let (near, far) = unsafe {
+                (node.planes.get_unchecked(slabs.near[$axis]), node.planes.get_unchecked(slabs.far[$axis]))
+            };
+            let (near, far) = (_mm256_cvtepi32_ps(lanes(near)), _mm256_cvtepi32_ps(lanes(far)));
             let step = all(step);
             let first = all(first);
             let first_far = if INSIDE { all(first_far) } else { first };
