@@ -4,6 +4,8 @@ use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::{Boundable, BvhBuildParams, aabb::Aabb, bvh2::Bvh2, bvh2::builder::build_bvh2};
 
+use rayon::prelude::*;
+
 use super::kernel::{Blocks, Child, Node, Tree, WIDTH};
 
 /// An axis-aligned box.
@@ -69,154 +71,182 @@ pub fn round_up(x: f64) -> f32 {
 
 /// Builds the wide tree over boxes; `block` makes a leaf's data from its primitives' indices, of which `fits` says whether
 /// they fit into one.
-pub fn wide_tree<B: Blocks>(
+pub fn wide_tree<B: Blocks + Send>(
     bounds: &[Bounds],
     fits: impl Fn(&[u32]) -> bool,
-    block: impl Fn(&[u32]) -> B,
+    block: impl Fn(&[u32]) -> B + Sync,
 ) -> Tree<B> {
-    let mut tree = Tree::default();
     if bounds.is_empty() {
-        return tree;
+        return Tree::default();
     }
     let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
     let bvh = build_bvh2(bounds, params, &mut std::time::Duration::default());
     let plan = Plan::new(&bvh, B::MOST, fits);
-    let mut stack = vec![(0usize, 0usize, 0usize)]; // binary node, wide node, stack entries in use above it
-    tree.nodes.push(Node::EMPTY);
-    let (mut children, mut prims) = (Vec::new(), Vec::new());
-    let mut boxes = Vec::new();
-    while let Some((binary, wide, used)) = stack.pop() {
-        children.clear();
-        plan.children(&bvh, binary, &mut children);
-        let used = used + children.len();
-        tree.stack_need = tree.stack_need.max(used + 2); // and the end's mark
-        boxes.clear();
-        for &child in &children {
-            let aabb = bvh.nodes[child].aabb();
-            let link = if plan.is_leaf(&bvh, child) {
-                prims.clear();
-                prims_below(&bvh, child, &mut prims);
-                let block = block(&prims);
-                tree.block_need = tree.block_need.max(block.stack_need());
-                tree.blocks.push(block);
-                Child::leaf(tree.blocks.len() - 1)
-            } else {
-                tree.nodes.push(Node::EMPTY);
-                stack.push((child, tree.nodes.len() - 1, used));
-                Child::node(tree.nodes.len() - 1)
-            };
-            boxes.push((Vec3::from(aabb.min), Vec3::from(aabb.max), link));
-        }
-        tree.nodes[wide] = Node::new(&boxes);
-    }
-    tree
+    let Shape { nodes, leaves, stack_need } = Shape::new(&bvh, &plan);
+    let nodes = (nodes.par_iter())
+        .map(|children| {
+            let boxes: ArrayVec<_, WIDTH> = (children.iter())
+                .map(|&(at, link)| {
+                    let aabb = bvh.nodes[at as usize].aabb();
+                    (Vec3::from(aabb.min), Vec3::from(aabb.max), link)
+                })
+                .collect();
+            Node::new(&boxes)
+        })
+        .collect();
+    let blocks: Vec<B> = (leaves.par_iter())
+        .map(|&at| {
+            let mut prims = ArrayVec::new();
+            prims_below(&bvh, at, &mut prims);
+            block(&prims)
+        })
+        .collect();
+    let block_need = blocks.iter().map(B::stack_need).max().unwrap_or(0);
+    Tree { nodes, blocks, stack_need, block_need }
 }
 
-/// Appends the primitives below a binary node.
-fn prims_below(bvh: &Bvh2, root: usize, prims: &mut Vec<u32>) {
-    let mut todo = ArrayVec::<usize, 64>::new();
-    todo.push(root);
-    while let Some(at) = todo.pop() {
-        let node = &bvh.nodes[at];
-        let first = node.first_index as usize;
-        if node.is_leaf() {
-            prims.extend_from_slice(&bvh.primitive_indices[first..first + node.prim_count as usize]);
-        } else {
-            todo.push(first + 1);
-            todo.push(first);
-        }
+/// Most primitives of a leaf of any kind.
+const MOST: usize = 4;
+
+/// Appends the primitives below a binary node, of which there are few.
+fn prims_below(bvh: &Bvh2, at: u32, prims: &mut ArrayVec<u32, MOST>) {
+    let node = &bvh.nodes[at as usize];
+    if node.is_leaf() {
+        prims.push(bvh.primitive_indices[node.first_index as usize]);
+    } else {
+        prims_below(bvh, node.first_index, prims);
+        prims_below(bvh, node.first_index + 1, prims);
     }
 }
-
-/// What a visit of a leaf costs, in visits of a node.
-const LEAF_COST: f64 = 1.0;
 
 /// Which binary nodes become wide ones and leaves: the choice with the least expected cost by the surface area
-/// heuristic, found by dynamic programming (Ylitalo et al., "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", 2017, section 3).
+/// heuristic, found by dynamic programming (Ylitalo et al., "Efficient incoherent ray traversal on GPUs through compressed wide
+/// BVHs", 2017, section 3). A visit of a leaf is taken to cost what a visit of a node does: half or
+/// double that changed the speed by less than what repeats did.
 struct Plan {
-    /// `cost[n][i]`: least cost of what is below the binary node n, as a forest of up to i + 1 subtrees.
-    cost: Vec<[f32; WIDTH - 1]>,
-    /// Whether the node, alone, is best a leaf.
-    leaf: Vec<bool>,
+    /// For each binary node the best ways to make of what is below it a forest of at most n subtrees: in the bits
+    /// 3 n to 3 n + 2 how many of these are on the left, or 0 where fewer than n cost as little.
+    left: Vec<u32>,
+}
+
+/// Of a binary node that is planned.
+struct Planned {
+    /// `cost[n − 1]`: least cost of a forest of at most n subtrees.
+    cost: [f32; WIDTH - 1],
+    /// What is below, if it fits into a leaf.
+    prims: ArrayVec<u32, MOST>,
 }
 
 impl Plan {
+    /// In the bits of n = 0, which is no forest: the node, as one subtree, is a leaf.
+    const LEAF: u32 = 1;
+
     fn new(bvh: &Bvh2, most: usize, fits: impl Fn(&[u32]) -> bool) -> Self {
-        let count = bvh.nodes.len();
-        let mut plan = Self { cost: vec![[0.0; WIDTH - 1]; count], leaf: vec![false; count] };
-        let mut size = vec![0u32; count];
-        let mut prims = Vec::new();
-        // Parents before children, to be gone through backwards.
-        let mut order = vec![0usize];
-        let mut next = 0;
-        while next < order.len() {
-            let node = &bvh.nodes[order[next]];
-            if !node.is_leaf() {
-                order.extend([node.first_index as usize, node.first_index as usize + 1]);
-            }
-            next += 1;
-        }
-        for &at in order.iter().rev() {
-            let node = &bvh.nodes[at];
+        let mut left = vec![0u32; bvh.nodes.len()];
+        // Children before parents: a node is met once to plan its children, and once more to be planned.
+        let mut todo = vec![(0u32, false)];
+        let mut planned: Vec<Planned> = Vec::new();
+        while let Some((at, children_planned)) = todo.pop() {
+            let node = &bvh.nodes[at as usize];
             let aabb = node.aabb();
-            let area = Bounds { min: aabb.min.into(), max: aabb.max.into() }.half_area();
-            let leaf_cost = (area * LEAF_COST) as f32;
+            let area = Bounds { min: aabb.min.into(), max: aabb.max.into() }.half_area() as f32;
             if node.is_leaf() {
-                (size[at], plan.leaf[at]) = (node.prim_count, true);
-                plan.cost[at] = [leaf_cost; WIDTH - 1];
+                left[at as usize] = Self::LEAF;
+                let prims = std::iter::once(bvh.primitive_indices[node.first_index as usize]).collect();
+                planned.push(Planned { cost: [area; WIDTH - 1], prims });
                 continue;
             }
-            let (left, right) = (node.first_index as usize, node.first_index as usize + 1);
-            size[at] = size[left] + size[right];
-            let (l, r) = (plan.cost[left], plan.cost[right]);
-            let split = |n: usize| (1..n).map(|k| l[k - 1] + r[n - k - 1]).fold(f32::INFINITY, f32::min);
-            let mut cost = [0.0; WIDTH - 1];
-            cost[0] = area as f32 + split(WIDTH);
-            if size[at] as usize <= most && leaf_cost <= cost[0] {
-                prims.clear();
-                prims_below(bvh, at, &mut prims);
-                plan.leaf[at] = fits(&prims);
-                if plan.leaf[at] {
-                    cost[0] = leaf_cost;
+            if !children_planned {
+                todo.extend([(at, true), (node.first_index + 1, false), (node.first_index, false)]);
+                continue;
+            }
+            let r = planned.pop().expect("both children are planned");
+            let l = planned.last_mut().expect("both children are planned");
+            let mut choice = 0;
+            let mut split = [f32::INFINITY; WIDTH + 1];
+            for n in 2..=WIDTH {
+                for k in 1..n {
+                    let cost = l.cost[k - 1] + r.cost[n - k - 1];
+                    if cost < split[n] {
+                        split[n] = cost;
+                        choice = choice & !(7 << (3 * n)) | (k as u32) << (3 * n);
+                    }
+                }
+            }
+            let mut cost = [area + split[WIDTH]; WIDTH - 1];
+            if l.prims.is_empty() || r.prims.is_empty() || l.prims.len() + r.prims.len() > most {
+                l.prims.clear();
+            } else {
+                l.prims.extend(r.prims);
+                if !fits(&l.prims) {
+                    l.prims.clear();
+                } else if area <= cost[0] {
+                    cost[0] = area;
+                    choice |= Self::LEAF;
                 }
             }
             for n in 2..WIDTH {
-                cost[n - 1] = split(n).min(cost[n - 2]);
+                cost[n - 1] = split[n].min(cost[n - 2]);
+                if split[n] >= cost[n - 2] {
+                    choice &= !(7 << (3 * n));
+                }
             }
-            plan.cost[at] = cost;
+            l.cost = cost;
+            left[at as usize] = choice;
         }
-        plan
+        Self { left }
     }
 
-    fn is_leaf(&self, _: &Bvh2, at: usize) -> bool {
-        self.leaf[at]
+    fn is_leaf(&self, at: u32) -> bool {
+        self.left[at as usize] & Self::LEAF != 0
     }
 
-    /// The children of the wide node at a binary node; of a tree that is one leaf, that leaf.
-    fn children(&self, bvh: &Bvh2, at: usize, children: &mut Vec<usize>) {
-        if self.leaf[at] {
-            children.push(at);
-            return;
-        }
-        let mut todo = vec![(at, WIDTH)];
-        let mut forced = true;
-        while let Some((at, mut n)) = todo.pop() {
-            // As few as cost as little.
-            while !forced && n > 1 && self.cost[at][n - 1] == self.cost[at][n - 2] {
-                n -= 1;
+    /// Appends the roots of the best forest of at most n subtrees below a binary node.
+    fn forest(&self, bvh: &Bvh2, at: u32, n: usize, roots: &mut ArrayVec<u32, WIDTH>) {
+        let first = bvh.nodes[at as usize].first_index;
+        match (self.left[at as usize] >> (3 * n) & 7) as usize {
+            _ if n == 1 => roots.push(at),
+            0 => self.forest(bvh, at, n - 1, roots),
+            k => {
+                self.forest(bvh, first, k, roots);
+                self.forest(bvh, first + 1, n - k, roots);
             }
-            if n == 1 && !forced {
-                children.push(at);
-                continue;
-            }
-            forced = false;
-            let (left, right) = (bvh.nodes[at].first_index as usize, bvh.nodes[at].first_index as usize + 1);
-            let (l, r) = (&self.cost[left], &self.cost[right]);
-            let k = (1..n)
-                .min_by(|&a, &b| (l[a - 1] + r[n - a - 1]).total_cmp(&(l[b - 1] + r[n - b - 1])))
-                .expect("n is at least 2");
-            todo.push((right, n - k));
-            todo.push((left, k));
         }
+    }
+}
+
+/// The wide tree with binary nodes in place of boxes and primitives.
+struct Shape {
+    nodes: Vec<ArrayVec<(u32, Child), WIDTH>>,
+    leaves: Vec<u32>,
+    stack_need: usize,
+}
+
+impl Shape {
+    fn new(bvh: &Bvh2, plan: &Plan) -> Self {
+        let mut shape = Self { nodes: vec![ArrayVec::new()], leaves: Vec::new(), stack_need: 0 };
+        let mut todo = vec![(0u32, 0usize, 1usize)]; // binary node, wide node, stack entries in use above it
+        while let Some((binary, wide, used)) = todo.pop() {
+            let mut children = ArrayVec::new();
+            if plan.is_leaf(binary) {
+                children.push(binary); // the whole tree is one leaf
+            } else {
+                plan.forest(bvh, binary, WIDTH, &mut children);
+            }
+            let used = used + children.len();
+            shape.stack_need = shape.stack_need.max(used);
+            for at in children {
+                let link = if plan.is_leaf(at) {
+                    shape.leaves.push(at);
+                    Child::leaf(shape.leaves.len() - 1)
+                } else {
+                    shape.nodes.push(ArrayVec::new());
+                    todo.push((at, shape.nodes.len() - 1, used));
+                    Child::node(shape.nodes.len() - 1)
+                };
+                shape.nodes[wide].push((at, link));
+            }
+        }
+        shape
     }
 }
