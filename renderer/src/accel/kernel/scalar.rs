@@ -56,8 +56,8 @@ pub fn visit<const INSIDE: bool>(
             if INSIDE { (node.origin[axis] - slabs.o_far[axis]) * slabs.inverse[axis] } else { first };
         for i in 0..WIDTH {
             // Written so that a NaN (of infinite products) changes nothing.
-            let t0 = f32::from(near[i]) * step + first;
-            let t1 = f32::from(far[i]) * step + first_far;
+            let t0 = f32::from(near[i]).mul_add(step, first);
+            let t1 = f32::from(far[i]).mul_add(step, first_far);
             enter[i] = if t0 > enter[i] { t0 } else { enter[i] };
             leave[i] = if t1 < leave[i] { t1 } else { leave[i] };
         }

@@ -33,11 +33,11 @@ impl Level {
 
 /// See [`super::one_by_one`].
 pub fn one_by_one<B: Blocks>(level: Level, tree: &Tree<B>, rays: &[Ray], query: Query) {
-    #[target_feature(enable = "avx2,bmi1,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,popcnt")]
     fn avx2<B: Blocks>(tree: &Tree<B>, rays: &[Ray], query: Query) {
         along::trace(Avx2(()), tree, rays, query)
     }
-    #[target_feature(enable = "avx2,bmi1,popcnt,avx512f,avx512vl")]
+    #[target_feature(enable = "avx2,fma,bmi1,popcnt,avx512f,avx512vl")]
     fn avx512<B: Blocks>(tree: &Tree<B>, rays: &[Ray], query: Query) {
         along::trace(Avx2(()), tree, rays, query)
     }
@@ -50,11 +50,11 @@ pub fn one_by_one<B: Blocks>(level: Level, tree: &Tree<B>, rays: &[Ray], query: 
 
 /// See [`super::interleaved`].
 pub fn interleaved(level: Level, tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
-    #[target_feature(enable = "avx2,bmi1,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,popcnt")]
     fn avx2(tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
         batch::trace(Avx2(()), tree, rays, query)
     }
-    #[target_feature(enable = "avx2,bmi1,popcnt,avx512f,avx512vl")]
+    #[target_feature(enable = "avx2,fma,bmi1,popcnt,avx512f,avx512vl")]
     fn avx512(tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
         batch::trace(Avx2(()), tree, rays, query)
     }
@@ -125,12 +125,13 @@ const fn packed() -> [[[u8; WIDTH]; 256]; 8] {
 #[inline]
 #[target_feature(enable = "avx2")]
 fn lanes(bytes: &[u8; 8]) -> __m256i {
-    _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(i64::from_le_bytes(*bytes)))
+    // SAFETY: eight bytes are read.
+    _mm256_cvtepu8_epi32(unsafe { _mm_loadl_epi64(bytes.as_ptr().cast()) })
 }
 
 /// See [`super::scalar::visit`].
 #[inline]
-#[target_feature(enable = "avx2,bmi1,popcnt")]
+#[target_feature(enable = "avx2,fma,bmi1,popcnt")]
 fn visit<const INSIDE: bool>(
     node: &Node,
     slabs: &Slabs<INSIDE>,
@@ -164,8 +165,8 @@ fn visit<const INSIDE: bool>(
             let first = all(first);
             let first_far = if INSIDE { all(first_far) } else { first };
             // Where the first is NaN, the second is taken.
-            enter = _mm256_max_ps(_mm256_add_ps(_mm256_mul_ps(near, step), first), enter);
-            leave = _mm256_min_ps(_mm256_add_ps(_mm256_mul_ps(far, step), first_far), leave);
+            enter = _mm256_max_ps(_mm256_fmadd_ps(near, step, first), enter);
+            leave = _mm256_min_ps(_mm256_fmadd_ps(far, step, first_far), leave);
         };
     }
     axis!(0);
@@ -193,7 +194,7 @@ fn visit<const INSIDE: bool>(
 
 /// See [`super::scalar::inside`].
 #[inline]
-#[target_feature(enable = "avx2,bmi1,popcnt")]
+#[target_feature(enable = "avx2,fma,bmi1,popcnt")]
 fn inside(corners: &Corners, sheared: &ShearedRay, edges: &mut [[f64; LANES]; 3]) -> u32 {
     let [kx, ky, kz] = sheared.k;
     // SAFETY: each load is from an array of its size.
