@@ -196,7 +196,7 @@ impl Accel {
     }
 
     /// [`closest`](Self::closest) of the triangles by the scalar kernel.
-    #[cfg(any(test, feature = "bench"))]
+    #[cfg(feature = "bench")]
     pub fn closest_scalar(&self, rays: &[Ray], hits: &mut [Hit]) {
         for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
             *hit = Hit { t: ray.t_max, ..Hit::MISS };
@@ -206,7 +206,7 @@ impl Accel {
     }
 
     /// [`occluded`](Self::occluded) of the triangles by the scalar kernel.
-    #[cfg(any(test, feature = "bench"))]
+    #[cfg(feature = "bench")]
     pub fn occluded_scalar(&self, rays: &[Ray], blocked: &mut [bool]) {
         blocked.fill(false);
         kernel::reference(&self.top.triangles, rays, Occluded(blocked));

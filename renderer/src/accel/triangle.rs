@@ -17,7 +17,7 @@ use super::kernel::{Blocks, CORNERS, Corners, Isa, LANES, ShearedRay, Stack};
 use super::{Hit, NONE, Ray};
 
 /// Up to four triangles, in two cache lines.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(128))]
 pub struct TriangleBlock {
     corners: Corners,

@@ -53,7 +53,7 @@ impl<const INSIDE: bool> Slabs<INSIDE> {
         Self {
             o: with_zero(std::array::from_fn(|a| if INSIDE { towards(a, pad[a]) } else { o[a] })),
             o_far: with_zero(std::array::from_fn(|a| if INSIDE { towards(a, -pad[a]) } else { o[a] })),
-            inverse: with_zero(d.map(|d| (1.0 / d).clamp(-LARGEST_INVERSE, LARGEST_INVERSE))),
+            inverse: with_zero(d.map(|d| (1.0 / (d + 0.0)).clamp(-LARGEST_INVERSE, LARGEST_INVERSE))), // −0 as 0,
             near: std::array::from_fn(|a| if d[a] < 0.0 { a + 3 } else { a }),
             far: std::array::from_fn(|a| if d[a] < 0.0 { a } else { a + 3 }),
             octant: (0..3).map(|a| usize::from(d[a] < 0.0) << a).sum(),

@@ -90,7 +90,7 @@ pub struct Met {
 }
 
 /// Up to four triangles with their corners in columns: `v[axis][corner]`. Corners of equal position are one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Corners {
     /// Coordinates.
@@ -206,3 +206,6 @@ pub fn interleaved(tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
 pub fn reference<B: Blocks>(tree: &Tree<B>, rays: &[Ray], query: Query) {
     along::trace(scalar::Scalar, tree, rays, query)
 }
+
+#[cfg(test)]
+mod tests;

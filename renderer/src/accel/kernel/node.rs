@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::accel::build;
+
 /// Children of a node.
 pub const WIDTH: usize = 8;
 
@@ -47,7 +49,7 @@ impl Child {
 }
 
 /// Eight boxes in columns, in two cache lines.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(128))]
 pub struct Node {
     /// Where the grid begins; the fourth is 0.
@@ -84,9 +86,9 @@ impl Node {
         let mut node = Self::EMPTY;
         let mut per_step = DVec3::ZERO;
         for axis in 0..3 {
-            let origin = super::super::build::round_down(low[axis] - margin[axis]);
+            let origin = build::round_down(low[axis] - margin[axis]);
             let extent = high[axis] + margin[axis] - f64::from(origin);
-            let step = super::super::build::round_up(extent / STEPS);
+            let step = build::round_up(extent / STEPS);
             (node.origin[axis], node.step[axis]) = (origin, step);
             per_step[axis] = if step > 0.0 { 1.0 / f64::from(step) } else { 0.0 };
         }

@@ -22,12 +22,22 @@ impl Level {
     #[inline]
     pub fn detected() -> Option<Self> {
         let avx2 = is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
             && is_x86_feature_detected!("bmi1")
             && is_x86_feature_detected!("popcnt");
         if avx2 && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
             return Some(Self::Avx512);
         }
         avx2.then_some(Self::Avx2)
+    }
+
+    /// All that this processor has.
+    #[cfg(test)]
+    pub fn all_detected() -> Vec<Self> {
+        match Self::detected() {
+            Some(Self::Avx512) => vec![Self::Avx2, Self::Avx512],
+            other => other.into_iter().collect(),
+        }
     }
 }
 
