@@ -164,11 +164,11 @@ impl Plan {
             let l = planned.last_mut().expect("both children are planned");
             let mut choice = 0;
             let mut split = [f32::INFINITY; WIDTH + 1];
-            for n in 2..=WIDTH {
+            for (n, best) in split.iter_mut().enumerate().skip(2) {
                 for k in 1..n {
                     let cost = l.cost[k - 1] + r.cost[n - k - 1];
-                    if cost < split[n] {
-                        split[n] = cost;
+                    if cost < *best {
+                        *best = cost;
                         choice = choice & !(7 << (3 * n)) | (k as u32) << (3 * n);
                     }
                 }

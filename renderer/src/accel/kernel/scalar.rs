@@ -104,7 +104,9 @@ pub fn inside(corners: &Corners, sheared: &ShearedRay, edges: &mut [[f64; LANES]
         let (u, v, w) = (cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax);
         let outside = (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0);
         mask |= u32::from(!outside) << i;
-        (edges[0][i], edges[1][i], edges[2][i]) = (u, v, w);
+        for (out, edge) in edges.iter_mut().zip([u, v, w]) {
+            out[i] = edge;
+        }
     }
     mask
 }
