@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::build::Bounds;
-use super::kernel::{Blocks, Child, Entry, ShearedRay};
+use super::kernel::{Blocks, Isa, ShearedRay, Stack};
 use super::{Frame64, Hit, NONE, Ray};
 
 /// The form in object space.
@@ -113,7 +113,7 @@ impl Blocks for Analytics {
     const MOST: usize = 4;
 
     #[inline(always)]
-    fn closest(&self, ray: &Ray, sheared: &ShearedRay, _: &mut [Entry], hit: &mut Hit) {
+    fn closest<I: Isa>(&self, _: I, ray: &Ray, sheared: &ShearedRay, _: &mut Stack, _: usize, hit: &mut Hit) {
         for &(prim, shape) in &self.shapes {
             if let Some(t) = shape.intersect(sheared).map(|t| t as f32)
                 && prim != ray.skip
@@ -126,7 +126,7 @@ impl Blocks for Analytics {
     }
 
     #[inline(always)]
-    fn occluded(&self, ray: &Ray, sheared: &ShearedRay, _: &mut [Child]) -> bool {
+    fn occluded<I: Isa>(&self, _: I, ray: &Ray, sheared: &ShearedRay, _: &mut Stack, _: usize) -> bool {
         self.shapes.iter().any(|(prim, shape)| {
             *prim != ray.skip && shape.intersect(sheared).is_some_and(|t| (t as f32) < ray.t_max)
         })

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::build::Bounds;
-use super::kernel::{Blocks, Child, Entry, ShearedRay, Slabs, closest_along, occluded_along};
+use super::kernel::{Blocks, Isa, ShearedRay, Slabs, Stack, closest_along, occluded_along};
 use super::{Hit, Level, NONE, Ray};
 
 /// A group in a place.
@@ -112,14 +112,22 @@ impl Blocks for Placed {
     const MOST: usize = 1;
 
     #[inline(always)]
-    fn closest(&self, ray: &Ray, sheared: &ShearedRay, stack: &mut [Entry], hit: &mut Hit) {
+    fn closest<I: Isa>(
+        &self,
+        isa: I,
+        ray: &Ray,
+        sheared: &ShearedRay,
+        stack: &mut Stack,
+        base: usize,
+        hit: &mut Hit,
+    ) {
         let Some(Inside { ray, sheared, slabs }) = self.enter(ray, sheared) else { return };
         let mut inner = Hit { t: hit.t, ..Hit::MISS };
         if !self.group.triangles.is_empty() {
-            closest_along(&self.group.triangles, &ray, &slabs, &sheared, stack, &mut inner);
+            closest_along(isa, &self.group.triangles, &ray, &slabs, &sheared, stack, base, &mut inner);
         }
         if !self.group.analytics.is_empty() {
-            closest_along(&self.group.analytics, &ray, &slabs, &sheared, stack, &mut inner);
+            closest_along(isa, &self.group.analytics, &ray, &slabs, &sheared, stack, base, &mut inner);
         }
         if inner.prim != NONE && (inner.t < hit.t || self.comes_before(hit)) {
             *hit = Hit { instance: self.index, ..inner };
@@ -127,11 +135,18 @@ impl Blocks for Placed {
     }
 
     #[inline(always)]
-    fn occluded(&self, ray: &Ray, sheared: &ShearedRay, stack: &mut [Child]) -> bool {
+    fn occluded<I: Isa>(
+        &self,
+        isa: I,
+        ray: &Ray,
+        sheared: &ShearedRay,
+        stack: &mut Stack,
+        base: usize,
+    ) -> bool {
         let Some(Inside { ray, sheared, slabs }) = self.enter(ray, sheared) else { return false };
         let Level { triangles, analytics, .. } = &*self.group;
-        (!triangles.is_empty() && occluded_along(triangles, &ray, &slabs, &sheared, stack))
-            || (!analytics.is_empty() && occluded_along(analytics, &ray, &slabs, &sheared, stack))
+        (!triangles.is_empty() && occluded_along(isa, triangles, &ray, &slabs, &sheared, stack, base))
+            || (!analytics.is_empty() && occluded_along(isa, analytics, &ray, &slabs, &sheared, stack, base))
     }
 
     fn stack_need(&self) -> usize {

@@ -3,6 +3,11 @@
 //! The interface takes whole arrays of rays, so that a traversal may interleave them. Every hit that
 //! is returned has passed an exact inside test and has its distance from the plane equation in `f64`
 //! (see [`triangle`]), so that there is no leak between triangles, no scene-dependent epsilon and no `t_min`.
+//!
+//! From obvhs's binary tree [`build`] makes one with eight children a node, whose boxes are rounded outwards to 8 bits ([`kernel`]:
+//! a node is two cache lines), and whose leaves hold up to four triangles that share up to eight corners ([`triangle`]:
+//! two more). 32 rays go through it at a time (`kernel/batch.rs`), so that none waits for memory. What was tried and what
+//! each idea gave is in `docs/speed.md`.
 
 mod analytic;
 mod build;
@@ -19,6 +24,7 @@ pub use analytic::{Analytic, AnalyticKind};
 pub use build::Bounds;
 use instance::Placed;
 pub use instance::{Instance, image};
+use kernel::Query::{Closest, Occluded};
 use kernel::Tree;
 use triangle::TriangleBlock;
 
@@ -100,12 +106,16 @@ impl Level {
         let mut bounds = Bounds::EMPTY;
         triangle_bounds.iter().chain(&analytic_bounds).for_each(|b| bounds = bounds.union(b));
         Self {
-            triangles: build::wide_tree(&triangle_bounds, |indices| {
-                TriangleBlock::new(prims.triangles, prims.first_triangle, indices)
-            }),
-            analytics: build::wide_tree(&analytic_bounds, |indices| {
-                Analytics::new(prims.analytics, prims.first_analytic, indices)
-            }),
+            triangles: build::wide_tree(
+                &triangle_bounds,
+                |indices| TriangleBlock::fits(prims.triangles, indices),
+                |indices| TriangleBlock::new(prims.triangles, prims.first_triangle, indices),
+            ),
+            analytics: build::wide_tree(
+                &analytic_bounds,
+                |_| true,
+                |indices| Analytics::new(prims.analytics, prims.first_analytic, indices),
+            ),
             bounds,
             center: 0.5 * (bounds.min.as_dvec3() + bounds.max.as_dvec3()),
             radius: bounds.radius(),
@@ -143,11 +153,12 @@ impl Accel {
             })
             .collect();
         boxes.iter().for_each(|b| bounds = bounds.union(b));
-        let instances = build::wide_tree(&boxes, |indices| {
+        let place = |indices: &[u32]| {
             let index = shown[indices[0] as usize];
             let instance = &instances[index as usize];
             Placed::new(instance, index, &groups[instance.group as usize])
-        });
+        };
+        let instances = build::wide_tree(&boxes, |_| true, place);
         Self { top, instances, bounds }
     }
 
@@ -163,12 +174,12 @@ impl Accel {
         for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
             *hit = Hit { t: ray.t_max, ..Hit::MISS };
         }
-        kernel::closest(&self.top.triangles, rays, hits);
+        kernel::interleaved(&self.top.triangles, rays, Closest(hits));
         if !self.top.analytics.is_empty() {
-            kernel::closest(&self.top.analytics, rays, hits);
+            kernel::one_by_one(&self.top.analytics, rays, Closest(hits));
         }
         if !self.instances.is_empty() {
-            kernel::closest(&self.instances, rays, hits);
+            kernel::one_by_one(&self.instances, rays, Closest(hits));
         }
         for hit in hits {
             if hit.prim == NONE {
@@ -180,13 +191,36 @@ impl Accel {
     /// Whether anything lies on each ray before its `t_max`. Both slices have the same length.
     pub fn occluded(&self, rays: &[Ray], blocked: &mut [bool]) {
         blocked.fill(false);
-        kernel::occluded(&self.top.triangles, rays, blocked);
+        kernel::interleaved(&self.top.triangles, rays, Occluded(blocked));
         if !self.top.analytics.is_empty() {
-            kernel::occluded(&self.top.analytics, rays, blocked);
+            kernel::one_by_one(&self.top.analytics, rays, Occluded(blocked));
         }
         if !self.instances.is_empty() {
-            kernel::occluded(&self.instances, rays, blocked);
+            kernel::one_by_one(&self.instances, rays, Occluded(blocked));
         }
+    }
+
+    /// [`closest`](Self::closest) of the triangles by the scalar kernel.
+    #[cfg(feature = "bench")]
+    pub fn closest_scalar(&self, rays: &[Ray], hits: &mut [Hit]) {
+        for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
+            *hit = Hit { t: ray.t_max, ..Hit::MISS };
+        }
+        kernel::reference(&self.top.triangles, rays, Closest(hits));
+        hits.iter_mut().filter(|hit| hit.prim == NONE).for_each(|hit| *hit = Hit::MISS);
+    }
+
+    /// [`occluded`](Self::occluded) of the triangles by the scalar kernel.
+    #[cfg(feature = "bench")]
+    pub fn occluded_scalar(&self, rays: &[Ray], blocked: &mut [bool]) {
+        blocked.fill(false);
+        kernel::reference(&self.top.triangles, rays, Occluded(blocked));
+    }
+
+    /// Size of the tree over the triangles with its leaves.
+    #[cfg(feature = "bench")]
+    pub fn triangle_bytes(&self) -> usize {
+        self.top.triangles.bytes()
     }
 
     /// Radius of a sphere around everything; 0 for an empty scene.

@@ -48,9 +48,11 @@ fn brute_force(triangles: &[[Vec3; 3]], ray: &Ray) -> Hit {
     let mut hit = Hit { t: ray.t_max, ..Hit::MISS };
     for prim in 0..triangles.len() as u32 {
         TriangleBlock::new(triangles, 0, &[prim]).closest(
+            kernel::Scalar,
             ray,
             &kernel::ShearedRay::new(ray),
-            &mut [],
+            &mut kernel::Stack::new(0),
+            0,
             &mut hit,
         );
     }
@@ -84,7 +86,7 @@ fn every_instruction_set_gives_the_same_bits() {
     let mut best = vec![Hit::MISS; rays.len()];
     let mut scalar: Vec<Hit> = rays.iter().map(|r| Hit { t: r.t_max, ..Hit::MISS }).collect();
     accel.closest(&rays, &mut best);
-    kernel::scalar_closest(&accel.top.triangles, &rays, &mut scalar);
+    kernel::reference(&accel.top.triangles, &rays, Closest(&mut scalar));
     for (a, b) in best.iter().zip(&scalar) {
         assert_eq!((a.prim, a.u.to_bits(), a.v.to_bits()), (b.prim, b.u.to_bits(), b.v.to_bits()));
         assert!(a.prim == NONE || a.t.to_bits() == b.t.to_bits());

@@ -214,7 +214,7 @@ fn every_instruction_set_gives_the_same_bits_inside_instances() {
     let mut best: Vec<Hit> = vec![Hit::MISS; rays.len()];
     let mut scalar: Vec<Hit> = rays.iter().map(|r| Hit { t: r.t_max, ..Hit::MISS }).collect();
     prepared.accel.closest(&rays, &mut best);
-    kernel::scalar_closest(&prepared.accel.instances, &rays, &mut scalar);
+    kernel::reference(&prepared.accel.instances, &rays, kernel::Query::Closest(&mut scalar));
     assert_eq!(best, scalar);
     assert!(best.iter().filter(|hit| hit.instance != NONE).count() > 100);
 }

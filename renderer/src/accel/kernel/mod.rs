@@ -1,85 +1,102 @@
 //! Traversal of eight-wide trees.
 //!
-//! There is one source, [`scalar`]; the others compile it again with wider instructions enabled, and the
-//! best that the processor has is chosen at run time. Rust never fuses a multiplication with an addition by
-//! itself, so that all of them give the same hits to the bit.
+//! [`scalar`] is the specification of the two innermost steps, the test of a node's eight boxes and that of a leaf's four
+//! triangles; [`x86`] does the same operations in the same order on AVX2 registers, compiled for AVX2 and for AVX-512, and the
+//! best that the processor has is chosen at run time. No multiplication is fused with an addition, so that
+//! all of them visit the same nodes and give the same hits to the bit.
+//!
+//! [`along`] follows one ray through a tree, [`batch`] many at a time.
 
+mod along;
+mod batch;
+mod node;
 mod scalar;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use glam::{DVec3, Vec3};
-pub use scalar::{Entry, Slabs, closest_along, occluded_along};
+use glam::DVec3;
 
+pub use along::{Slabs, Stack, closest_along, occluded_along};
+pub use node::{Child, Node, WIDTH};
+#[cfg(test)]
+pub use scalar::Scalar;
+
+use super::triangle::TriangleBlock;
 use super::{Hit, Ray};
 
-/// Children of a node.
-pub const WIDTH: usize = 8;
+/// Triangles of a leaf.
+pub const LANES: usize = 4;
+/// Corners of a leaf's triangles.
+pub const CORNERS: usize = 8;
 
 /// What a leaf holds: up to a block of primitives.
 pub trait Blocks {
     /// Most primitives of a block.
     const MOST: usize;
-    /// Replaces `hit` by a nearer one of this block. `stack` has room for what the block asks for.
-    fn closest(&self, ray: &Ray, sheared: &ShearedRay, stack: &mut [Entry], hit: &mut Hit);
+    /// Replaces `hit` by a nearer one of this block. `stack` has room for what the block asks for from `base` on.
+    fn closest<I: Isa>(
+        &self,
+        isa: I,
+        ray: &Ray,
+        sheared: &ShearedRay,
+        stack: &mut Stack,
+        base: usize,
+        hit: &mut Hit,
+    );
     /// Whether anything of this block lies before `ray.t_max`.
-    fn occluded(&self, ray: &Ray, sheared: &ShearedRay, stack: &mut [Child]) -> bool;
+    fn occluded<I: Isa>(
+        &self,
+        isa: I,
+        ray: &Ray,
+        sheared: &ShearedRay,
+        stack: &mut Stack,
+        base: usize,
+    ) -> bool;
     /// Stack entries that the block needs for a traversal of its own.
     fn stack_need(&self) -> usize {
         0
     }
 }
 
-/// A link to a node or to a leaf's block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Child(u32);
+/// An instruction set: the two steps that are written for each.
+pub trait Isa: Copy {
+    /// Which children's boxes the ray meets before `limit`: all but the nearest are written, with the distances at which
+    /// the ray enters them (see [`scalar::visit`]); what lies beyond these in the arrays is arbitrary.
+    fn visit<const INSIDE: bool>(
+        self,
+        node: &Node,
+        slabs: &Slabs<INSIDE>,
+        limit: f32,
+        enters: &mut [f32; WIDTH],
+        links: &mut [Child; WIDTH],
+    ) -> Met;
 
-impl Child {
-    const LEAF: u32 = 1 << 31;
-    /// No child: its box is never hit.
-    pub const NONE: Self = Self(u32::MAX);
+    /// Bit mask of the triangles that the ray is not outside of, and all edge functions (see [`scalar::inside`]).
+    fn inside(self, corners: &Corners, sheared: &ShearedRay, edges: &mut [[f64; LANES]; 3]) -> u32;
 
-    /// A link to an inner node.
-    pub fn node(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    /// A link to a block.
-    pub fn leaf(index: usize) -> Self {
-        Self(index as u32 | Self::LEAF)
-    }
+    /// Asks for the two cache lines at `data`.
+    fn prefetch<T>(self, data: *const T);
 }
 
-/// Eight boxes in columns: `planes[0..3]` are the minima of x, y, z and `planes[3..6]` the maxima.
+/// What a ray meets of a node.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
-pub struct Node {
-    planes: [[f32; WIDTH]; 6],
-    child: [Child; WIDTH],
+pub struct Met {
+    /// Whether it meets any child.
+    pub any: bool,
+    /// The nearest child; arbitrary if there is none.
+    pub nearest: Child,
+    /// Number of the others.
+    pub others: usize,
 }
 
-impl Node {
-    /// No children: minima above maxima are never hit.
-    pub const EMPTY: Self = Self {
-        planes: [
-            [f32::INFINITY; WIDTH],
-            [f32::INFINITY; WIDTH],
-            [f32::INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-        ],
-        child: [Child::NONE; WIDTH],
-    };
-
-    /// Puts a child into a lane.
-    pub fn set(&mut self, lane: usize, min: Vec3, max: Vec3, child: Child) {
-        for axis in 0..3 {
-            self.planes[axis][lane] = min[axis];
-            self.planes[axis + 3][lane] = max[axis];
-        }
-        self.child[lane] = child;
-    }
+/// Up to four triangles with their corners in columns: `v[axis][corner]`. Corners of equal position are one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Corners {
+    /// Coordinates.
+    pub v: [[f32; CORNERS]; 3],
+    /// The corner that is the first, second, third vertex of each triangle.
+    pub index: [[u8; LANES]; 3],
 }
 
 /// A wide tree with its leaves.
@@ -105,6 +122,12 @@ impl<B> Tree<B> {
     /// Whether there is nothing to hit.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
+    }
+
+    /// Size of nodes and blocks.
+    #[cfg(feature = "bench")]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..])
     }
 }
 
@@ -138,7 +161,7 @@ impl ShearedRay {
         } else {
             2
         };
-        let (kx, ky) = ((kz + 1) % 3, (kz + 2) % 3);
+        let (kx, ky) = ([1, 2, 0][kz], [2, 0, 1][kz]);
         let inverse = 1.0 / ray.d[kz];
         Self {
             k: [kx, ky, kz],
@@ -151,26 +174,38 @@ impl ShearedRay {
     }
 }
 
-/// The reference, whatever the processor has.
+/// What is done along rays: the nearest hit that beats the one in the array, or whether anything lies before `t_max`, where
+/// that is not known yet.
+pub enum Query<'a> {
+    /// Nearest hits.
+    Closest(&'a mut [Hit]),
+    /// What is set stays set.
+    Occluded(&'a mut [bool]),
+}
+
+/// Traces rays one by one: where leaves are costly.
+pub fn one_by_one<B: Blocks>(tree: &Tree<B>, rays: &[Ray], query: Query) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(level) = x86::Level::detected() {
+        return x86::one_by_one(level, tree, rays, query);
+    }
+    along::trace(scalar::Scalar, tree, rays, query)
+}
+
+/// Traces many rays at a time, so that memory is waited for once for all of them.
+pub fn interleaved(tree: &Tree<TriangleBlock>, rays: &[Ray], query: Query) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(level) = x86::Level::detected() {
+        return x86::interleaved(level, tree, rays, query);
+    }
+    batch::trace(scalar::Scalar, tree, rays, query)
+}
+
+/// The reference: scalar whatever the processor has, and a ray at a time.
+#[cfg(any(test, feature = "bench"))]
+pub fn reference<B: Blocks>(tree: &Tree<B>, rays: &[Ray], query: Query) {
+    along::trace(scalar::Scalar, tree, rays, query)
+}
+
 #[cfg(test)]
-pub fn scalar_closest<B: Blocks>(tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
-    scalar::closest(tree, rays, hits)
-}
-
-/// The nearest hit of each ray that beats the one in `hits`.
-pub fn closest<B: Blocks>(tree: &Tree<B>, rays: &[Ray], hits: &mut [Hit]) {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(level) = x86::Level::detected() {
-        return x86::closest(level, tree, rays, hits);
-    }
-    scalar::closest(tree, rays, hits)
-}
-
-/// Sets `blocked` where anything lies before a ray's `t_max`; what is set stays set.
-pub fn occluded<B: Blocks>(tree: &Tree<B>, rays: &[Ray], blocked: &mut [bool]) {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(level) = x86::Level::detected() {
-        return x86::occluded(level, tree, rays, blocked);
-    }
-    scalar::occluded(tree, rays, blocked)
-}
+mod tests;
