@@ -143,13 +143,19 @@ impl Plan {
 
     fn new(bvh: &Bvh2, most: usize, fits: impl Fn(&[u32]) -> bool) -> Self {
         let mut left = vec![0u32; bvh.nodes.len()];
+        // As shares of the root's, which no size of the scene can bring out of the range of f32.
+        let area = |at: u32| {
+            let aabb = bvh.nodes[at as usize].aabb();
+            Bounds { min: aabb.min.into(), max: aabb.max.into() }.half_area()
+        };
+        let whole = area(0);
+        let scale = if whole > 0.0 { 1.0 / whole } else { 0.0 };
         // Children before parents: a node is met once to plan its children, and once more to be planned.
         let mut todo = vec![(0u32, false)];
         let mut planned: Vec<Planned> = Vec::new();
         while let Some((at, children_planned)) = todo.pop() {
             let node = &bvh.nodes[at as usize];
-            let aabb = node.aabb();
-            let area = Bounds { min: aabb.min.into(), max: aabb.max.into() }.half_area() as f32;
+            let area = (area(at) * scale) as f32;
             if node.is_leaf() {
                 left[at as usize] = Self::LEAF;
                 let prims = std::iter::once(bvh.primitive_indices[node.first_index as usize]).collect();

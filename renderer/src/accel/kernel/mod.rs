@@ -2,8 +2,8 @@
 //!
 //! [`scalar`] is the specification of the two innermost steps, the test of a node's eight boxes and that of a leaf's four
 //! triangles; [`x86`] does the same operations in the same order on AVX2 registers, compiled for AVX2 and for AVX-512, and the
-//! best that the processor has is chosen at run time. No multiplication is fused with an addition, so that
-//! all of them visit the same nodes and give the same hits to the bit.
+//! best that the processor has is chosen at run time. All fuse the same multiplications with the same additions, those of the
+//! box test, and no others: they visit the same nodes and give the same hits to the bit.
 //!
 //! [`along`] follows one ray through a tree, [`batch`] many at a time.
 

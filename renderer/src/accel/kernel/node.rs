@@ -86,7 +86,7 @@ impl Node {
         let mut node = Self::EMPTY;
         let mut per_step = DVec3::ZERO;
         for axis in 0..3 {
-            let origin = build::round_down(low[axis] - margin[axis]);
+            let origin = build::round_down(low[axis] - margin[axis]).max(f32::MIN);
             let extent = high[axis] + margin[axis] - f64::from(origin);
             let step = build::round_up(extent / STEPS);
             (node.origin[axis], node.step[axis]) = (origin, step);
