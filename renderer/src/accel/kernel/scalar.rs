@@ -88,7 +88,7 @@ pub fn visit<const INSIDE: bool>(
 /// NaN for infinities: a grid that begins infinitely far away, as counted along a nearly parallel axis, says nothing.
 #[inline(always)]
 fn finite(x: f32) -> f32 {
-    x + (x - x)
+    if x.is_finite() { x } else { f32::NAN }
 }
 
 /// Edge functions of four triangles in the ray's own space (Woop, Benthin and Wald 2013), and a bit mask of those
