@@ -172,7 +172,7 @@ fn processor() -> String {
             .unwrap_or("?")
     };
     let flags: Vec<&str> = (field("flags").split(' '))
-        .filter(|flag| ["sse2", "avx2", "bmi1", "avx512f", "avx512vl"].contains(flag))
+        .filter(|flag| ["sse2", "avx2", "fma", "bmi1", "avx512f", "avx512vl"].contains(flag))
         .collect();
     format!(
         "processor: {}, family {} model {}; flags: {}",

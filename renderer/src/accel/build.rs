@@ -173,7 +173,7 @@ impl Plan {
             for (n, best) in split.iter_mut().enumerate().skip(2) {
                 for k in 1..n {
                     let cost = l.cost[k - 1] + r.cost[n - k - 1];
-                    if cost < *best {
+                    if k == 1 || cost < *best {
                         *best = cost;
                         choice = choice & !(7 << (3 * n)) | (k as u32) << (3 * n);
                     }

@@ -56,7 +56,7 @@ impl Ray {
 pub struct Hit {
     /// Distance; infinite for a miss.
     pub t: f32,
-    /// As numbered by [`Prims`]; [`NONE`]: a miss.
+    /// As numbered by `Prims`; [`NONE`]: a miss.
     pub prim: u32,
     /// Barycentric coordinate of the triangle's second vertex.
     pub u: f32,

@@ -11,10 +11,10 @@ use crate::accel::{Hit, Ray};
 /// Slab distances carry a few roundings each; widening the far side keeps the box test conservative (Ize 2013).
 pub const WIDEN: f32 = 1.0 + 8.0 * f32::EPSILON;
 
-/// Largest inverse of a direction's component: what is multiplied by it stays finite in most scenes, and where it does not,
-/// the boxes are not tested along that axis. A ray moves less than 2⁻⁹⁶ of its way along an axis for which this is not
-/// the inverse: that is far within the boxes' margin.
-const LARGEST_INVERSE: f32 = (1u128 << 96) as f32;
+/// Largest inverse of a direction's component: what is multiplied by it stays finite in most scenes, and where it does not, the
+/// boxes are not tested along that axis. A ray moves less than 2⁻⁶⁰ of its way along an axis for which this is not
+/// the inverse: far less than the boxes' margin, unless the way is 2⁴² times as long as the box.
+const LARGEST_INVERSE: f32 = (1u64 << 60) as f32;
 
 /// What the box tests of one ray need. `INSIDE` an instance the ray was rounded: boxes are padded by how far it may be
 /// from the true one, and its distances are counted from elsewhere, in another unit.

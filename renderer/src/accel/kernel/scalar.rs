@@ -51,9 +51,12 @@ pub fn visit<const INSIDE: bool>(
     for axis in 0..3 {
         let (near, far) = (&node.planes[slabs.near[axis]], &node.planes[slabs.far[axis]]);
         let step = node.step[axis] * slabs.inverse[axis];
-        let first = (node.origin[axis] - slabs.o[axis]) * slabs.inverse[axis];
-        let first_far =
-            if INSIDE { (node.origin[axis] - slabs.o_far[axis]) * slabs.inverse[axis] } else { first };
+        let first = finite((node.origin[axis] - slabs.o[axis]) * slabs.inverse[axis]);
+        let first_far = if INSIDE {
+            finite((node.origin[axis] - slabs.o_far[axis]) * slabs.inverse[axis])
+        } else {
+            first
+        };
         for i in 0..WIDTH {
             // Written so that a NaN (of infinite products) changes nothing.
             let t0 = f32::from(near[i]).mul_add(step, first);
@@ -80,6 +83,12 @@ pub fn visit<const INSIDE: bool>(
         }
     }
     Met { any, nearest: node.child[nearest], others }
+}
+
+/// NaN for infinities: a grid that begins infinitely far away, as counted along a nearly parallel axis, says nothing.
+#[inline(always)]
+fn finite(x: f32) -> f32 {
+    if x.is_finite() { x } else { f32::NAN }
 }
 
 /// Edge functions of four triangles in the ray's own space (Woop, Benthin and Wald 2013), and a bit mask of those

@@ -167,6 +167,27 @@ fn tree_is_the_same_for_any_number_of_threads() {
 }
 
 #[test]
+fn hits_scale_with_the_scene_by_any_power_of_two() {
+    let triangles = triangles();
+    let rays = rays(&triangles, 1000);
+    let (hits, blocked) = found(&rays, |rays, query| interleaved(&tree(&triangles), rays, query));
+    for exponent in [-100, -30, 30, 100] {
+        let scale = 2f32.powi(exponent);
+        let scaled: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(|p| scale * p)).collect();
+        let scaled_rays: Vec<Ray> =
+            rays.iter().map(|ray| Ray { o: scale * ray.o, t_max: scale * ray.t_max, ..*ray }).collect();
+        let tree = tree(&scaled);
+        let (scaled_hits, scaled_blocked) =
+            found(&scaled_rays, |rays, query| interleaved(&tree, rays, query));
+        let expected: Vec<Bits> =
+            hits.iter().map(|h| (h.0, (scale * f32::from_bits(h.1)).to_bits(), h.2, h.3)).collect();
+        assert!(tree.nodes.len() > 50, "2^{exponent}: {} nodes", tree.nodes.len());
+        assert_eq!(scaled_hits, expected, "2^{exponent}");
+        assert_eq!(scaled_blocked, blocked, "2^{exponent}");
+    }
+}
+
+#[test]
 fn already_blocked_rays_stay_blocked() {
     let tree = tree(&triangles());
     let rays = [Ray::new(Vec3::new(0.0, 0.0, 9.0), Vec3::Z); 40];

@@ -160,8 +160,9 @@ fn visit<const INSIDE: bool>(
         )
     };
     let step = _mm_mul_ps(step, inverse);
-    let first = _mm_mul_ps(_mm_sub_ps(origin, o), inverse);
-    let first_far = if INSIDE { _mm_mul_ps(_mm_sub_ps(origin, o_far), inverse) } else { first };
+    let finite = |v| _mm_add_ps(v, _mm_sub_ps(v, v));
+    let first = finite(_mm_mul_ps(_mm_sub_ps(origin, o), inverse));
+    let first_far = if INSIDE { finite(_mm_mul_ps(_mm_sub_ps(origin, o_far), inverse)) } else { first };
     let (mut enter, mut leave) = (_mm256_setzero_ps(), _mm256_set1_ps(f32::MAX));
     macro_rules! axis {
         ($axis:literal) => {
