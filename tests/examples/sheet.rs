@@ -21,7 +21,7 @@ const SIDE: u32 = 144;
 const SPP: u32 = 256;
 const COLUMNS: usize = 4;
 /// Of the JPEGs, of 100.
-const QUALITY: u8 = 88;
+const QUALITY: u8 = 75;
 /// Height of the words under a pair, and the way between pairs.
 const WORDS: u32 = 18;
 const GAP: u32 = 12;

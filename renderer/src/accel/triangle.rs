@@ -4,8 +4,8 @@
 //! ray becomes the z axis; what remains is a point-in-triangle test in the plane. Each sheared vertex is
 //! rounded once and alike for all triangles that share it, and the three edge functions are evaluated in `f64`, where a
 //! difference of two products of `f32` numbers has its exact sign: the projected mesh is a consistent plane figure, and a ray
-//! cannot slip between its triangles. Four triangles in `f64` fill an AVX2 register; a pass in `f32` before, which
-//! discarded what is certainly outside, cost more than it saved.
+//! cannot slip between its triangles. Four triangles in `f64` fill an AVX2 register; a pass in `f32` before, to
+//! discard what is certainly outside, would be more instructions than that.
 //!
 //! The distance comes from the plane through the vertices in `f64`, not from the interpolated z of the
 //! sheared vertices: on a triangle of side 1e6 seen from 1 unit the latter is off by tenths of a unit.

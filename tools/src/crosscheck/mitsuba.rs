@@ -143,7 +143,9 @@ impl Drop for Mitsuba {
     }
 }
 
+/// Of a Mitsuba that is there.
 fn broken(problem: String) -> CliError {
+    let problem = format!("while rendering: {problem}");
     let help = "try again with fewer pixels or samples, or compare with a picture by `--against`";
     CliError::Mitsuba { problem, help: help.into() }
 }
